@@ -1,0 +1,49 @@
+# `make help` lists the targets. What they need is made once, in .venv/ and install/.
+SHELL := bash
+.DEFAULT_GOAL := help
+
+# The Python for .venv; empty: the first that fits.
+PYTHON ?=
+run := set -euo pipefail; . tools/env.bash;
+
+sources := package.xml setup.py setup.cfg colcon.pkg colcon_defaults.yaml resource \
+  $(shell find tendon_statics config launch resource interfaces -type f \
+    -not -path '*/__pycache__/*' -not -name '*.swp')
+
+.PHONY: help
+help: ## List the targets
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /  make \1\t/' | expand -t 16
+
+.PHONY: setup
+setup: install/.complete ## Install ROS 2 into .venv/ (or use apt's) and build into install/
+
+.PHONY: demo
+demo: setup ## Drive the estimator node over real ROS 2 and print what it publishes
+	@$(run) python tools/demo.py
+
+.PHONY: test
+test: setup ## Run all tests (choose with ARGS, say ARGS='-k node')
+	@$(run) python -m pytest $(ARGS)
+
+.PHONY: lint
+lint: .venv/.complete ## Check style and types
+	@$(run) ruff check . && ruff format --check . && mypy
+
+.PHONY: docs
+docs: setup ## Make again the tables and figures of docs/
+	@$(run) python tools/make_docs.py
+
+.PHONY: clean
+clean: ## Remove all that the targets made
+	rm -rf .venv build install log
+
+.venv/.complete: tools/make_venv.bash tools/mend_wheel_cmake.py tools/requirements.txt \
+  tools/requirements-ros.txt
+	@tools/make_venv.bash $(PYTHON)
+	@touch $@
+
+install/.complete: .venv/.complete $(sources)
+	@echo "== building tendon_statics_interfaces and tendon_statics into install/"
+	@$(run) python -m colcon build --event-handlers console_cohesion- console_stderr-  desktop_notification- \
+	  || { echo 'tendon_statics: the build failed; log/latest_build has why' >&2; exit 1; }
+	@touch $@

@@ -1,0 +1,39 @@
+"""Start one estimator; arguments: namespace, params_file, tensions (the topic to listen to)."""
+
+from pathlib import Path
+
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    share = Path(get_package_share_directory('tendon_statics'))
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument(
+                'namespace', default_value='', description='namespace of the node and its topics'
+            ),
+            DeclareLaunchArgument(
+                'params_file',
+                default_value=str(share / 'config' / 'preliminary_design.yaml'),
+                description='parameter file with the joint design, as the preliminary design',
+            ),
+            DeclareLaunchArgument(
+                'tensions',
+                default_value='tensions',
+                description='topic of std_msgs/Float64MultiArray [tension_l, tension_s] in N',
+            ),
+            Node(
+                package='tendon_statics',
+                executable='estimator',
+                name='estimator',
+                namespace=LaunchConfiguration('namespace'),
+                parameters=[LaunchConfiguration('params_file')],
+                remappings=[('tensions', LaunchConfiguration('tensions'))],
+                output='screen',
+            ),
+        ]
+    )

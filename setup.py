@@ -1,0 +1,38 @@
+from glob import glob
+
+from setuptools import find_packages, setup
+
+package_name = 'tendon_statics'
+share = f'share/{package_name}'
+
+setup(
+    name=package_name,
+    version='0.1.0',
+    packages=find_packages(include=[package_name, f'{package_name}.*']),
+    package_data={package_name: ['py.typed']},
+    data_files=[
+        ('share/ament_index/resource_index/packages', [f'resource/{package_name}']),
+        (share, ['package.xml']),
+        (f'{share}/config', glob('config/*')),
+        (f'{share}/launch', glob('launch/*.launch.py')),
+        (f'{share}/hook', ['resource/path.dsv']),
+    ],
+    install_requires=['setuptools', 'numpy>=1.26.4', 'PyYAML'],
+    extras_require={
+        'plot': ['matplotlib'],
+        'test': ['hypothesis', 'mpmath', 'pytest', 'scipy>=1.11.4'],
+    },
+    zip_safe=False,
+    maintainer='tendon_statics maintainers',
+    maintainer_email='maintainers@users.noreply.h-seed-45baf2cd.example',
+    description='Bend angle and joint pressure of tendon-driven units from cable tensions.',
+    license='Apache-2.0',
+    python_requires='>=3.10',
+    entry_points={
+        'console_scripts': [
+            'estimator = tendon_statics.node.estimator:main',
+            'pulley_driver = tendon_statics.node.pulley_driver:main',
+            'tendon-statics = tendon_statics.command_line.main:main',
+        ],
+    },
+)

@@ -1,0 +1,1 @@
+"""The program ``tendon-statics``: one verb per file, each with `add_arguments` and `run`."""

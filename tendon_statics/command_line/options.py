@@ -1,0 +1,38 @@
+"""Options that several verbs share, and the error for asking too much of them."""
+
+from __future__ import annotations
+
+import argparse
+
+from ..design_file import default_design_path, load_design
+from ..physics import JointDesign
+
+
+class UsageError(Exception):
+    """The command line asks for what cannot be; the text is for the user."""
+
+
+def add_design_option(parser: argparse.ArgumentParser) -> None:
+    """Add ``--design FILE``."""
+    parser.add_argument(
+        '--design',
+        metavar='FILE',
+        help='joint design, a ROS parameter file; default: the preliminary design',
+    )
+
+
+def design_from(options: argparse.Namespace) -> JointDesign:
+    """Return the design that ``--design`` names, or the installed default."""
+    return load_design(options.design or default_design_path())
+
+
+def add_tension_options(parser: argparse.ArgumentParser) -> None:
+    """Add ``--tension-l N`` and ``--tension-s N``, both required."""
+    for name in ('l', 's'):
+        parser.add_argument(
+            f'--tension-{name}',
+            type=float,
+            required=True,
+            metavar='N',
+            help=f'tension of cable {name} in N',
+        )

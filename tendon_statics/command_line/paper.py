@@ -1,0 +1,125 @@
+"""``tendon-statics paper``: the numbers behind docs/model.md, from the paper's published case."""
+
+from __future__ import annotations
+
+import argparse
+import math
+
+from ..physics import JointDesign, contact_coefficients, paper, solve
+from .options import add_design_option, design_from
+from .tables import markdown_table
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the verb takes."""
+    parser.add_argument('--section', choices=SECTIONS, help='one table only; default: all')
+    add_design_option(parser)
+
+
+def run(options: argparse.Namespace) -> None:
+    """Print the tables."""
+    design = design_from(options)
+    names = [options.section] if options.section else list(SECTIONS)
+    print('\n\n'.join(SECTIONS[name](design) for name in names))
+
+
+def _published(design: JointDesign) -> str:
+    equilibrium = solve(design, paper.TENSION_L, paper.TENSION_S)
+    if equilibrium.bend_angle is None or equilibrium.pressure is None:
+        return f'With this design the published tensions give no angle: {equilibrium.regime}.'
+    return markdown_table(
+        ('result', 'paper:', 'here:'),
+        [
+            (
+                'bend angle θ [deg]',
+                f'{math.degrees(paper.BEND_ANGLE):.2f}',
+                f'{math.degrees(equilibrium.bend_angle):.6f}',
+            ),
+            ('pressure p [Pa]', f'{paper.PRESSURE:.1f}', f'{equilibrium.pressure:.6f}'),
+        ],
+    )
+
+
+def _errata(design: JointDesign) -> str:
+    def row(label: str, slips: tuple[paper.Slip, ...]) -> tuple[str, str, str]:
+        pressure = paper.force_pressure(design, *tensions, paper.BEND_ANGLE, slips)
+        residuals = [
+            paper.moment_pressure(design, *tensions, angle) - right
+            for angle in (0.0, design.max_bend_angle)
+            if (right := paper.force_pressure(design, *tensions, angle, slips)) is not None
+        ]
+        ends = ', '.join(f'{value:+.1f}' for value in residuals) or 'not real'
+        return label, 'not real' if pressure is None else f'{pressure:+.1f}', ends
+
+    tensions = (paper.TENSION_L, paper.TENSION_S)
+    every = tuple(paper.Slip)
+    return markdown_table(
+        (
+            'Eq. (4)',
+            f'right-hand side at {math.degrees(paper.BEND_ANGLE):.2f}° [Pa]:',
+            'left − right at 0° and at the stop [Pa]:',
+        ),
+        [
+            row('as printed', every),
+            *(
+                row(f'all corrected but {slip.name.lower().replace("_", " ")}', (slip,))
+                for slip in every
+            ),
+            row('corrected', ()),
+        ],
+    )
+
+
+def _identified(design: JointDesign) -> str:
+    identified = paper.identify_mass_and_offset(design)
+    return markdown_table(
+        ('parameter', 'identified:', 'in the design file:'),
+        [
+            ('mass m [kg]', f'{identified.mass:.11f}', f'{design.mass:.11f}'),
+            (
+                'cable offset δ [m]',
+                f'{identified.cable_offset:.11f}',
+                f'{design.cable_offset:.11f}',
+            ),
+        ],
+    )
+
+
+def _signs(design: JointDesign) -> str:
+    equilibrium = solve(design, paper.TENSION_L, paper.TENSION_S)
+    if equilibrium.bend_angle is None or equilibrium.forces is None:
+        return f'With this design the published tensions give no angle: {equilibrium.regime}.'
+    arc = contact_coefficients(design, equilibrium.bend_angle)
+    friction = design.friction_coefficient
+    derivatives = (
+        arc.pressure_x,
+        arc.pressure_z,
+        friction * arc.friction_x,
+        friction * arc.friction_z,
+    )
+    names = ('pressure-induced, X_G', 'pressure-induced, Z_G', 'friction, X_G', 'friction, Z_G')
+    symbols = ('F_FX = p w C_FX', 'F_FZ = p w C_FZ', 'F_fX = μ p w C_fX', 'F_fZ = μ p w C_fZ')
+    return markdown_table(
+        ('force', 'symbol', 'value [N]:', 'by p [N/Pa]:', 'sign'),
+        [
+            (
+                name,
+                symbol,
+                f'{force:+.6f}',
+                f'{derivative * design.contact_width:+.6e}',
+                '+' if force > 0.0 else '−',
+            )
+            for name, symbol, force, derivative in zip(
+                names, symbols, equilibrium.forces, derivatives, strict=True
+            )
+        ],
+    )
+
+
+SECTIONS = {
+    'published': _published,
+    'errata': _errata,
+    'identified': _identified,
+    'signs': _signs,
+}
+"""Section → what makes its table."""

@@ -1,0 +1,70 @@
+"""``tendon-statics solve``: one pair of cable tensions."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+
+from ..physics import Equilibrium, Regime, solve
+from .options import add_design_option, add_tension_options, design_from
+
+MEANING = {
+    Regime.EQUILIBRIUM: 'on the verge of slipping at this angle',
+    Regime.HELD: 'friction can hold any angle; tensions alone do not determine it',
+    Regime.DRIVEN_TO_STOP: 'friction cannot hold; the unit slides to its mechanical stop',
+    Regime.SLACK: 'a cable carries no tension, which is outside the model',
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the verb takes."""
+    add_tension_options(parser)
+    add_design_option(parser)
+    parser.add_argument(
+        '--format', choices=('text', 'json'), default='text', help='default: %(default)s'
+    )
+
+
+def run(options: argparse.Namespace) -> None:
+    """Solve and print."""
+    equilibrium = solve(design_from(options), options.tension_l, options.tension_s)
+    if options.format == 'json':
+        print(json.dumps(equilibrium.as_dict(), indent=2, allow_nan=False))
+    else:
+        print('\n'.join(_text(equilibrium)))
+
+
+def _text(equilibrium: Equilibrium) -> list[str]:
+    lines = [f'regime        {equilibrium.regime}: {MEANING[equilibrium.regime]}']
+    if equilibrium.bend_angle is None or equilibrium.pressure is None:
+        return lines
+    lines += [
+        f'bend angle    {math.degrees(equilibrium.bend_angle):.4f} deg '
+        f'({equilibrium.bend_angle:.10f} rad), towards cable '
+        f'{"s" if equilibrium.bend_angle > 0 else "l"}',
+        f'pressure      {equilibrium.pressure:.4f} Pa (contact force {equilibrium.normal_force:.6f} N)',
+    ]
+    if equilibrium.regime is Regime.EQUILIBRIUM:
+        lines.append(
+            f'roots         {equilibrium.root_count}, '
+            + ('this one stable' if equilibrium.stable else
+               'this one unstable: pushed past it, the unit slides on to the stop')
+        )
+    gradient, pressure_gradient = equilibrium.bend_angle_gradient, equilibrium.pressure_gradient
+    if gradient and pressure_gradient:
+        lines += [
+            f'sensitivity   by tension_l {math.degrees(gradient.tension_l):+.1f} deg/N, '
+            f'{pressure_gradient.tension_l:+.1f} Pa/N',
+            f'              by tension_s {math.degrees(gradient.tension_s):+.1f} deg/N, '
+            f'{pressure_gradient.tension_s:+.1f} Pa/N',
+        ]
+    if equilibrium.force_remainder:
+        lines.append(
+            f'remainder     {equilibrium.force_remainder.x:+.3f} N in X_G, '
+            f'{equilibrium.force_remainder.z:+.3f} N in Z_G of the two force equations'
+        )
+    if not equilibrium.branch_consistent:
+        lines.append('warning       the forces do not ask for the root that was taken '
+                     '(mu N sin(beta + theta) <= W)')
+    return lines

@@ -1,0 +1,116 @@
+"""Between ROS messages and the physics."""
+
+from __future__ import annotations
+
+import math
+
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from std_msgs.msg import Float64MultiArray, Header
+
+from ..physics import Equilibrium, JointDesign, TensionError
+
+# The node works without the package nested in interfaces/, but offers less.
+try:
+    from tendon_statics_interfaces.msg import Estimate
+    from tendon_statics_interfaces.srv import Solve
+except ImportError as _error:
+    Estimate = Solve = None
+    INTERFACES_MISSING = str(_error)
+else:
+    INTERFACES_MISSING = ''
+
+
+def tensions_from_array(message: Float64MultiArray) -> tuple[float, float]:
+    """T_l and T_s of a message ``[T_l, T_s]`` in N; its layout is not looked at.
+
+    Raises
+    ------
+    TensionError
+        If it does not have two values.
+    """
+    if len(message.data) != 2:
+        raise TensionError(f'{len(message.data)} values came, [tension_l, tension_s] is needed')
+    return message.data[0], message.data[1]
+
+
+def unit_pose(
+    design: JointDesign, bend_angle: float, bend_angle_stddev: float, header: Header
+) -> PoseWithCovarianceStamped:
+    """Pose of the unit's centre of gravity in the joint frame.
+
+    The joint frame has its origin in the joint's centre, Z along the unit at zero bend and X
+    towards cable s. The covariance follows from the angle's alone: position l (sin θ, 0, cos θ)
+    and rotation about Y move together, and what leaves the plane of bending has none.
+    """
+    sine, cosine = math.sin(bend_angle), math.cos(bend_angle)
+    message = PoseWithCovarianceStamped(header=header)
+    pose = message.pose.pose
+    pose.position.x = design.com_distance * sine
+    pose.position.z = design.com_distance * cosine
+    pose.orientation.y = math.sin(0.5 * bend_angle)
+    pose.orientation.w = math.cos(0.5 * bend_angle)
+    # ∂(x, y, z, rotation about x, y, z) / ∂θ
+    gradient = (design.com_distance * cosine, 0.0, -design.com_distance * sine, 0.0, 1.0, 0.0)
+    variance = bend_angle_stddev * bend_angle_stddev
+    message.pose.covariance = [variance * a * b for a in gradient for b in gradient]
+    return message
+
+
+def estimate(equilibrium: Equilibrium, tension_stddev: float, header: Header) -> Estimate:
+    """Every field of a result in one message; NaN or False where it is not determined."""
+    forces = equilibrium.forces or (math.nan,) * 4
+    remainder = equilibrium.force_remainder or (math.nan,) * 2
+    angle_gradient = equilibrium.bend_angle_gradient or (math.nan,) * 2
+    pressure_gradient = equilibrium.pressure_gradient or (math.nan,) * 2
+    return Estimate(
+        header=header,
+        regime=equilibrium.regime.value,
+        tension_l=equilibrium.tension_l,
+        tension_s=equilibrium.tension_s,
+        bend_angle=_number(equilibrium.bend_angle),
+        bend_angle_stddev=_number(equilibrium.bend_angle_stddev(tension_stddev)),
+        pressure=_number(equilibrium.pressure),
+        pressure_stddev=_number(equilibrium.pressure_stddev(tension_stddev)),
+        normal_force=_number(equilibrium.normal_force),
+        root_count=equilibrium.root_count,
+        stable=bool(equilibrium.stable),
+        branch_consistent=bool(equilibrium.branch_consistent),
+        iterations=equilibrium.iterations,
+        residual=_number(equilibrium.residual),
+        pressure_force_x=forces[0],
+        pressure_force_z=forces[1],
+        friction_force_x=forces[2],
+        friction_force_z=forces[3],
+        force_remainder_x=remainder[0],
+        force_remainder_z=remainder[1],
+        bend_angle_by_tension_l=angle_gradient[0],
+        bend_angle_by_tension_s=angle_gradient[1],
+        pressure_by_tension_l=pressure_gradient[0],
+        pressure_by_tension_s=pressure_gradient[1],
+    )
+
+
+def fill_solve_response(
+    response: Solve.Response, equilibrium: Equilibrium, tension_stddev: float
+) -> Solve.Response:
+    """Put a result into a response of ``~/solve``."""
+    response.success = True
+    response.regime = equilibrium.regime.value
+    response.bend_angle = _number(equilibrium.bend_angle)
+    response.pressure = _number(equilibrium.pressure)
+    response.bend_angle_stddev = _number(equilibrium.bend_angle_stddev(tension_stddev))
+    response.root_count = equilibrium.root_count
+    response.stable = bool(equilibrium.stable)
+    return response
+
+
+def refuse_solve(response: Solve.Response, reason: str) -> Solve.Response:
+    """Put the reason for no result into a response of ``~/solve``."""
+    response.success = False
+    response.message = reason
+    response.bend_angle = response.pressure = response.bend_angle_stddev = math.nan
+    return response
+
+
+def _number(value: float | None) -> float:
+    return math.nan if value is None else value

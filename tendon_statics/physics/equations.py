@@ -1,0 +1,103 @@
+"""The static equilibrium of one unit on the verge of slipping.
+
+The paper's Eqs. (1) to (3) with friction at its limit, F = μ N, ask for two normal forces N at a
+bend angle θ (φ = β + θ is the direction of the contact force, T = T_l + T_s, ΔT = T_s − T_l):
+
+- Eq. (3), the moment:          N_m = [ΔT (r + δ) + W l sin θ] / (μ r)
+- Eqs. (1) and (2), the forces: (T − N)² = (μ N)² + W² − 2 W μ N sin φ,
+  smaller positive root:        N_f = (T² − W²) / (B + R),      B = T − μ W sin φ
+
+The unit is about to slip where the two agree: g(θ) = N_m − N_f = 0. R is the root of the
+discriminant. Written as B² − (1 − μ²)(T² − W²) it can cancel; the same number as a sum of squares,
+R² = (W − μ T sin φ)² + μ² (T² − W²) cos² φ, cannot, and shows that it is real for T > W.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from .design import JointDesign
+
+
+def normal_force_ratios(
+    design: JointDesign, tension_l: float, tension_s: float
+) -> Callable[[float], tuple[float, float, float]]:
+    """Return the function θ → (N_m / T, N_f / T, R / T) of one pair of tensions.
+
+    What depends on design and tensions alone is computed here, once; the function returned is
+    what a root finder calls. As shares of the total tension T the three keep their digits at any
+    size of T.
+
+    Parameters
+    ----------
+    tension_l, tension_s : float
+        Cable tensions in N, their sum above the weight.
+    """
+    friction = design.friction_coefficient
+    total = tension_l + tension_s
+    weight = design.weight / total
+    resisting_arm = friction * design.ball_radius
+    cable_arm = design.ball_radius + design.cable_offset
+    moment_offset = (tension_s - tension_l) / total * cable_arm / resisting_arm
+    moment_gain = weight * design.com_distance / resisting_arm
+    product = (1.0 - weight) * (1.0 + weight)
+    friction_weight = friction * weight
+    friction_squared_product = friction * friction * product
+    friction_excess = (friction - 1.0) * (friction + 1.0)
+    sin_beta = math.sin(design.contact_centre_angle)
+    cos_beta = math.cos(design.contact_centre_angle)
+    sin, cos, sqrt = math.sin, math.cos, math.sqrt
+
+    def ratios(bend_angle: float) -> tuple[float, float, float]:
+        sin_theta = sin(bend_angle)
+        cos_theta = cos(bend_angle)
+        sin_phi = sin_beta * cos_theta + cos_beta * sin_theta
+        cos_phi = cos_beta * cos_theta - sin_beta * sin_theta
+        b = 1.0 - friction_weight * sin_phi
+        lift = weight - friction * sin_phi
+        root = sqrt(lift * lift + friction_squared_product * cos_phi * cos_phi)
+        # B < 0 needs μ > 1; there the other form of the same root is the one that does not cancel.
+        force = product / (b + root) if b > 0.0 else (root - b) / friction_excess
+        return moment_offset + moment_gain * sin_theta, force, root
+
+    return ratios
+
+
+def residual(
+    design: JointDesign, tension_l: float, tension_s: float, bend_angle: float
+) -> float:
+    """g(θ) = N_m − N_f in N: the corrected Eq. (4), multiplied by the contact area C w.
+
+    For a unit that slips towards cable s; for the other side swap the tensions and negate the
+    angle. Tensions in N with a sum above the weight, angle in rad.
+    """
+    moment, force, _ = normal_force_ratios(design, tension_l, tension_s)(bend_angle)
+    return (tension_l + tension_s) * (moment - force)
+
+
+class ContactCoefficients(NamedTuple):
+    """Integrals of a unit pressure and a unit shear over the contact arc, in m."""
+
+    pressure_x: float
+    """C_FX = C sin(β + θ)"""
+    pressure_z: float
+    """C_FZ = C cos(β + θ)"""
+    friction_x: float
+    """C_fX = C cos(β + θ)"""
+    friction_z: float
+    """C_fZ = C sin(β + θ)"""
+
+
+def contact_coefficients(design: JointDesign, bend_angle: float) -> ContactCoefficients:
+    """Contact coefficients of the paper's Eq. (4) at a bend angle in rad.
+
+    The contact zone turns with the unit and spans θ1 + θ to θ2 + θ.
+    """
+    phi = design.contact_centre_angle + bend_angle
+    sin_part = design.contact_length * math.sin(phi)
+    cos_part = design.contact_length * math.cos(phi)
+    return ContactCoefficients(
+        pressure_x=sin_part, pressure_z=cos_part, friction_x=cos_part, friction_z=sin_part
+    )

@@ -1,0 +1,21 @@
+"""What can be wrong with the input of the physics."""
+
+from __future__ import annotations
+
+
+class DesignError(ValueError):
+    """A joint design that cannot be used.
+
+    Attributes
+    ----------
+    key : str
+        The design parameter at fault; empty if the fault is not in a single one.
+    """
+
+    def __init__(self, message: str, *, key: str = '') -> None:
+        super().__init__(message)
+        self.key = key
+
+
+class TensionError(ValueError):
+    """A pair of cable tensions that the model does not take."""

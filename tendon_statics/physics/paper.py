@@ -1,0 +1,92 @@
+"""What the paper prints: its one published case, and Eq. (4) as it stands on the page."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Collection
+from enum import Enum
+
+from .design import JointDesign
+from .equations import contact_coefficients
+
+TENSION_L, TENSION_S = 1.0, 2.0
+"""Published input, N"""
+BEND_ANGLE = math.radians(17.14)
+"""Published result, rad"""
+PRESSURE = 405.6
+"""Published result, Pa"""
+
+
+def identify_mass_and_offset(design: JointDesign) -> JointDesign:
+    """Return the design with the mass and cable offset that give the published result.
+
+    With θ and p known, N = p C w is known, and the square sum of Eqs. (1) and (2) is a quadratic
+    in the weight, W² − 2 μ N sin φ W + (μ N)² − (T − N)² = 0. Its smaller root is the only one
+    below T. Eq. (3) then gives δ.
+    """
+    total = TENSION_L + TENSION_S
+    normal_force = PRESSURE * design.contact_area
+    friction = design.friction_coefficient * normal_force
+    phi = design.contact_centre_angle + BEND_ANGLE
+    weight = friction * math.sin(phi) - math.sqrt(
+        (total - normal_force) ** 2 - (friction * math.cos(phi)) ** 2
+    )
+    moment = friction * design.ball_radius - weight * design.com_distance * math.sin(BEND_ANGLE)
+    return dataclasses.replace(
+        design,
+        mass=weight / design.gravity,
+        cable_offset=moment / (TENSION_S - TENSION_L) - design.ball_radius,
+    )
+
+
+class Slip(Enum):
+    """A place where the printed Eq. (4) differs from what Eqs. (1) to (3) give."""
+
+    GROUPING = 'T (|C_F| − m g μ C_fZ), which adds m to N m; for T |C_F| − m g μ C_fZ'
+    FRICTION_POWER = 'μ C_f²; for μ² C_f², since friction is μ p C_f'
+    SIGN = 'the sign of the whole right-hand side'
+
+
+def force_pressure(
+    design: JointDesign,
+    tension_l: float,
+    tension_s: float,
+    bend_angle: float,
+    slips: Collection[Slip] = (),
+) -> float | None:
+    """Right-hand side of Eq. (4) in Pa, with these of its slips as printed; None if not real.
+
+    With no slips it is N_f / (C w), though not in a form that keeps its digits near μ = 1.
+    Numbers are taken as they stand where the units do not fit.
+    """
+    arc = contact_coefficients(design, bend_angle)
+    friction, weight = design.friction_coefficient, design.weight
+    total = tension_l + tension_s
+    pressure_square = arc.pressure_x**2 + arc.pressure_z**2
+    friction_square = arc.friction_x**2 + arc.friction_z**2
+    if Slip.GROUPING in slips:
+        linear = total * (math.sqrt(pressure_square) - weight * friction * arc.friction_z)
+    else:
+        linear = total * math.sqrt(pressure_square) - weight * friction * arc.friction_z
+    power = 1 if Slip.FRICTION_POWER in slips else 2
+    square = friction**power * friction_square - pressure_square
+    discriminant = linear**2 - square * (weight**2 - total**2)
+    if discriminant < 0.0 or square == 0.0:
+        return None
+    sign = 1.0 if Slip.SIGN in slips else -1.0
+    return sign * (linear - math.sqrt(discriminant)) / square / design.contact_width
+
+
+def moment_pressure(
+    design: JointDesign, tension_l: float, tension_s: float, bend_angle: float
+) -> float:
+    """Left-hand side of Eq. (4), in Pa: the pressure that the moment Eq. (3) asks for."""
+    arc = contact_coefficients(design, bend_angle)
+    cables = (tension_s - tension_l) * (design.ball_radius + design.cable_offset)
+    weight = design.weight * design.com_distance * math.sin(bend_angle)
+    friction_square = arc.friction_x**2 + arc.friction_z**2
+    resisting_arm = design.friction_coefficient * design.ball_radius
+    return (cables + weight) / (
+        resisting_arm * math.sqrt(friction_square) * design.contact_width
+    )

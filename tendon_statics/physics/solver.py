@@ -1,0 +1,173 @@
+"""From two cable tensions to bend angle and joint pressure."""
+
+from __future__ import annotations
+
+import math
+import numbers
+
+from .design import JointDesign
+from .equations import contact_coefficients, normal_force_ratios
+from .equilibrium import ContactForces, Equilibrium, ForceRemainder, Regime, TensionGradient
+from .errors import TensionError
+from .roots import SlipEquation
+
+MAX_TENSION = 1e9
+"""Largest tension in N that is taken; far above any cable, far below overflow."""
+
+
+def solve(design: JointDesign, tension_l: float, tension_s: float) -> Equilibrium:
+    """Solve the quasi-static equilibrium of one unit for a pair of cable tensions.
+
+    The corrected Eq. (4) is bisected on [0, θ_max] to 1e-10 rad. Tensions with T_l > T_s are the
+    mirror image. Of several roots the one nearest to 0 is returned, and all are counted.
+
+    Parameters
+    ----------
+    tension_l, tension_s : float
+        Cable tensions T_l and T_s in N.
+
+    Raises
+    ------
+    TensionError
+        If a tension is not a number, not finite, negative or above `MAX_TENSION`, or if the two
+        do not add up to more than the unit's weight.
+    """
+    tension_l, tension_s = check_tensions(design, tension_l, tension_s)
+    if tension_l == 0.0 or tension_s == 0.0:
+        return Equilibrium(Regime.SLACK, tension_l, tension_s, root_count=0, iterations=0)
+
+    weak, strong = sorted((tension_l, tension_s))
+    equation = SlipEquation(design, weak, strong)
+    brackets = equation.brackets(0.0, design.max_bend_angle)
+    if brackets:
+        bend_angle, iterations = equation.bisect(*brackets[0])
+        slope = equation.slope(bend_angle)
+        regime, stable = Regime.EQUILIBRIUM, slope < 0.0
+    elif equation.residual(0.0) > 0.0:
+        bend_angle, iterations = design.max_bend_angle, 0
+        slope = math.inf  # The stop does not give way: ∂θ/∂T = 0.
+        regime, stable = Regime.DRIVEN_TO_STOP, True
+    else:
+        return Equilibrium(Regime.HELD, tension_l, tension_s, root_count=0, iterations=0)
+
+    return _equilibrium_at(
+        design,
+        tension_l,
+        tension_s,
+        regime=regime,
+        stable=stable,
+        root_count=len(brackets),
+        iterations=iterations,
+        bend_angle=bend_angle,
+        residual=equation.residual(bend_angle),
+        slope=slope,
+    )
+
+
+def check_tensions(
+    design: JointDesign, tension_l: float, tension_s: float
+) -> tuple[float, float]:
+    """Return the two tensions as floats if the model takes them; a slack cable (0 N) it does.
+
+    Raises
+    ------
+    TensionError
+        As `solve` does.
+    """
+    checked = []
+    for name, value in (('tension_l', tension_l), ('tension_s', tension_s)):
+        if isinstance(value, bool) or not isinstance(value, numbers.Real):
+            raise TensionError(f'{name} is {value!r}, which is not a number; it is taken in N')
+        try:
+            tension = float(value)
+        except OverflowError:
+            tension = math.inf
+        if not 0.0 <= tension <= MAX_TENSION:
+            raise TensionError(f'{name} is {tension!r} N, allowed is 0 to {MAX_TENSION:g} N')
+        checked.append(tension)
+    total = sum(checked)
+    if min(checked) > 0.0 and not total > design.weight:
+        raise TensionError(
+            f'tension_l + tension_s is {checked[0]!r} + {checked[1]!r} = {total:.6g} N, '
+            f"which must exceed the unit's weight of {design.weight:.6g} N"
+        )
+    return checked[0], checked[1]
+
+
+def _equilibrium_at(
+    design: JointDesign,
+    tension_l: float,
+    tension_s: float,
+    *,
+    regime: Regime,
+    stable: bool,
+    root_count: int,
+    iterations: int,
+    bend_angle: float,
+    residual: float,
+    slope: float,
+) -> Equilibrium:
+    """All fields of the result at a non-negative angle towards the stronger cable.
+
+    `slope` is ∂g/∂θ in N/rad; infinite where the angle does not follow the tensions.
+    """
+    mirrored = tension_l > tension_s
+    side = -1.0 if mirrored else 1.0
+    total = tension_l + tension_s
+    weight, friction = design.weight, design.friction_coefficient
+
+    weak, strong = sorted((tension_l, tension_s))
+    _, force_ratio, root_ratio = normal_force_ratios(design, weak, strong)(bend_angle)
+    normal_force, root = total * force_ratio, total * root_ratio
+    pressure = normal_force / design.contact_area
+
+    # Forces: the arc's coefficients times p w, friction with μ.
+    arc = contact_coefficients(design, bend_angle)
+    per_metre = pressure * design.contact_width
+    forces = ContactForces(
+        pressure_x=side * per_metre * arc.pressure_x,
+        pressure_z=per_metre * arc.pressure_z,
+        friction_x=side * friction * per_metre * arc.friction_x,
+        friction_z=friction * per_metre * arc.friction_z,
+    )
+    remainder = ForceRemainder(
+        x=side * (normal_force - total) * math.sin(bend_angle) - forces.friction_x,
+        z=(normal_force - total) * math.cos(bend_angle) + forces.friction_z - weight,
+    )
+
+    # Derivatives: θ from g(θ, T_l, T_s) = 0, then p from N_f(θ, T_l + T_s).
+    angle_gradient = pressure_gradient = None
+    if slope != 0.0 and root > 0.0:
+        lever = (design.ball_radius + design.cable_offset) / (friction * design.ball_radius)
+        by_total = (total - normal_force) / root
+        by_angle = friction * weight * normal_force * math.cos(
+            design.contact_centre_angle + bend_angle
+        ) / root
+        angle_by_weak = (lever + by_total) / slope
+        angle_by_strong = -(lever - by_total) / slope
+        pressure_by_weak = (by_total + by_angle * angle_by_weak) / design.contact_area
+        pressure_by_strong = (by_total + by_angle * angle_by_strong) / design.contact_area
+        if mirrored:
+            angle_gradient = TensionGradient(-angle_by_strong, -angle_by_weak)
+            pressure_gradient = TensionGradient(pressure_by_strong, pressure_by_weak)
+        else:
+            angle_gradient = TensionGradient(angle_by_weak, angle_by_strong)
+            pressure_gradient = TensionGradient(pressure_by_weak, pressure_by_strong)
+
+    return Equilibrium(
+        regime=regime,
+        tension_l=tension_l,
+        tension_s=tension_s,
+        root_count=root_count,
+        iterations=iterations,
+        bend_angle=side * bend_angle,
+        pressure=pressure,
+        normal_force=normal_force,
+        stable=stable,
+        residual=residual,
+        forces=forces,
+        force_remainder=remainder,
+        branch_consistent=forces.friction_z > weight,
+        bend_angle_gradient=angle_gradient,
+        pressure_gradient=pressure_gradient,
+    )
