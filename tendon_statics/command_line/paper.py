@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 
-from ..physics import JointDesign, contact_coefficients, paper, solve
+from ..physics import JointDesign, Regime, contact_coefficients, paper, solve
 from .options import add_design_option, design_from
 from .tables import markdown_table
 
@@ -40,9 +40,41 @@ def _published(design: JointDesign) -> str:
     )
 
 
+def _band(design: JointDesign) -> str:
+    """Tensions of cable s at which the regime changes, that of cable l being the paper's."""
+
+    def change(regime: Regime, low: float, high: float) -> float:
+        """Largest tension of the regime, which is the one at `low` and not the one at `high`."""
+        while high - low > 1e-9:
+            middle = 0.5 * (low + high)
+            if solve(design, paper.TENSION_L, middle).regime is regime:
+                low = middle
+            else:
+                high = middle
+        return low
+
+    published = solve(design, paper.TENSION_L, paper.TENSION_S)
+    if published.regime is not Regime.EQUILIBRIUM:
+        return f'With this design the published tensions give no angle: {published.regime}.'
+    lower = change(Regime.HELD, paper.TENSION_L, paper.TENSION_S)
+    upper = change(Regime.EQUILIBRIUM, paper.TENSION_S, 10.0 * paper.TENSION_S)
+    return markdown_table(
+        ('T_s at T_l = 1 N', 'regime'),
+        [
+            (f'1 N to {lower:.4f} N', Regime.HELD.value),
+            (f'{lower:.4f} N to {upper:.4f} N', Regime.EQUILIBRIUM.value),
+            (f'above {upper:.4f} N', Regime.DRIVEN_TO_STOP.value),
+        ],
+    )
+
+
 def _errata(design: JointDesign) -> str:
+    tensions = (paper.TENSION_L, paper.TENSION_S)
+
     def row(label: str, slips: tuple[paper.Slip, ...]) -> tuple[str, str, str]:
-        pressure = paper.force_pressure(design, *tensions, paper.BEND_ANGLE, slips)
+        pressure = paper.force_pressure(
+            design, paper.TENSION_L, paper.TENSION_S, paper.BEND_ANGLE, slips
+        )
         residuals = [
             paper.moment_pressure(design, *tensions, angle) - right
             for angle in (0.0, design.max_bend_angle)
@@ -51,7 +83,6 @@ def _errata(design: JointDesign) -> str:
         ends = ', '.join(f'{value:+.1f}' for value in residuals) or 'not real'
         return label, 'not real' if pressure is None else f'{pressure:+.1f}', ends
 
-    tensions = (paper.TENSION_L, paper.TENSION_S)
     every = tuple(paper.Slip)
     return markdown_table(
         (
@@ -118,6 +149,7 @@ def _signs(design: JointDesign) -> str:
 
 SECTIONS = {
     'published': _published,
+    'band': _band,
     'errata': _errata,
     'identified': _identified,
     'signs': _signs,

@@ -5,10 +5,14 @@ from __future__ import annotations
 import argparse
 import math
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from ..physics import paper, residual, solve
-from .figures import BLUE, FORMATS, VERMILION, figure
-from .options import add_design_option, design_from
+from ..physics import Equilibrium, JointDesign, paper, residual, solve
+from .figures import BLUE, FORMATS, GREEN, ORANGE, VERMILION, figure
+from .options import UsageError, add_design_option, design_from
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 POINTS = 301
 
@@ -16,48 +20,174 @@ POINTS = 301
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the verb takes."""
     figures = parser.add_subparsers(dest='figure', metavar='FIGURE', required=True)
-    description = "Eq. (4) over the bend angle (the paper's Fig. 2)"
-    residual_parser = figures.add_parser('residual', help=description, description=description)
-    for name, tension in (('l', paper.TENSION_L), ('s', paper.TENSION_S)):
-        residual_parser.add_argument(
-            f'--tension-{name}',
-            type=float,
-            default=tension,
-            metavar='N',
-            help=f'tension of cable {name} in N; default: %(default)s',
+    for name, (description, _) in FIGURES.items():
+        figure_parser = figures.add_parser(name, help=description, description=description)
+        for cable, tension in (('l', paper.TENSION_L), ('s', paper.TENSION_S)):
+            figure_parser.add_argument(
+                f'--tension-{cable}',
+                type=float,
+                default=tension,
+                metavar='N',
+                help=f'tension of cable {cable} in N; default: %(default)s',
+            )
+        add_design_option(figure_parser)
+        figure_parser.add_argument(
+            '--output',
+            type=Path,
+            required=True,
+            metavar='FILE',
+            help=f'ending: {", ".join(FORMATS)}',
         )
-    add_design_option(residual_parser)
-    residual_parser.add_argument(
-        '--output', type=Path, required=True, metavar='FILE', help=f'ending: {", ".join(FORMATS)}'
-    )
 
 
 def run(options: argparse.Namespace) -> None:
     """Draw and write the figure."""
     design = design_from(options)
     equilibrium = solve(design, options.tension_l, options.tension_s)
+    _, draw = FIGURES[options.figure]
+    height = 4.6 if options.figure == 'unit' else 4.0
+    with figure(options.output, height=height) as axes:
+        draw(axes, design, equilibrium)
+
+
+def _draw_residual(axes: Axes, design: JointDesign, equilibrium: Equilibrium) -> None:
     weak, strong = sorted((equilibrium.tension_l, equilibrium.tension_s))
     stop = design.max_bend_angle
     angles = [stop * index / (POINTS - 1) for index in range(POINTS)]
     values = [residual(design, weak, strong, angle) / design.contact_area for angle in angles]
-    with figure(options.output) as axes:
-        axes.axhline(0.0, color='black', linewidth=0.8)
-        axes.plot([math.degrees(angle) for angle in angles], values, color=BLUE)
-        if equilibrium.iterations and equilibrium.bend_angle is not None:
-            angle = abs(equilibrium.bend_angle)
-            axes.plot([math.degrees(angle)], [0.0], 'o', color=VERMILION)
-            axes.annotate(
-                f'θ = {math.degrees(angle):.2f}°, p = {equilibrium.pressure:.1f} Pa',
-                (math.degrees(angle), 0.0),
-                xytext=(-8, 10),
-                textcoords='offset points',
-                horizontalalignment='right',
-            )
-        axes.set_xlim(0.0, math.degrees(stop))
-        axes.set_xlabel('bend angle θ towards the stronger cable [°]')
-        axes.set_ylabel('Eq. (4), left − right-hand side [Pa]')
-        axes.set_title(
-            f'{equilibrium.regime} at T_l = {equilibrium.tension_l:g} N, '
-            f'T_s = {equilibrium.tension_s:g} N',
-            fontsize=10,
+    axes.axhline(0.0, color='black', linewidth=0.8)
+    axes.plot([math.degrees(angle) for angle in angles], values, color=BLUE)
+    if equilibrium.root_count and equilibrium.bend_angle is not None:
+        angle = math.degrees(abs(equilibrium.bend_angle))
+        axes.plot([angle], [0.0], 'o', color=VERMILION)
+        axes.annotate(
+            f'θ = {angle:.2f}°, p = {equilibrium.pressure:.1f} Pa',
+            (angle, 0.0),
+            xytext=(-8, 10),
+            textcoords='offset points',
+            horizontalalignment='right',
         )
+    axes.set_xlim(0.0, math.degrees(stop))
+    axes.set_xlabel('bend angle θ towards the stronger cable [°]')
+    axes.set_ylabel('Eq. (4), left − right-hand side [Pa]')
+    axes.set_title(_title(equilibrium), fontsize=10)
+
+
+def _draw_unit(axes: Axes, design: JointDesign, equilibrium: Equilibrium) -> None:
+    if equilibrium.bend_angle is None:
+        raise UsageError(
+            f'the unit is drawn at its bend angle, and these tensions do not determine it: '
+            f'{equilibrium.regime}'
+        )
+    theta = equilibrium.bend_angle
+    side = math.copysign(1.0, theta)
+    millimetre = 1e3
+    r = design.ball_radius * millimetre
+    arm = r + design.cable_offset * millimetre
+    com = design.com_distance * millimetre
+
+    def turned(x: float, z: float) -> tuple[float, float]:
+        """Coordinates in the ground frame of a point of the unit."""
+        return (
+            x * math.cos(theta) + z * math.sin(theta),
+            z * math.cos(theta) - x * math.sin(theta),
+        )
+
+    def polyline(points: list[tuple[float, float]], **style: Any) -> None:
+        axes.plot([x for x, _ in points], [z for _, z in points], **style)
+
+    def arrow(tail: tuple[float, float], tip: tuple[float, float], colour: str) -> None:
+        style = {'arrowstyle': '-|>', 'color': colour, 'linewidth': 1.8, 'mutation_scale': 14}
+        axes.annotate('', xy=tip, xytext=tail, arrowprops=style)
+
+    # The ball of the unit below, and the unit that turns on it.
+    circle = [2.0 * math.pi * index / 120 for index in range(121)]
+    axes.fill([r * math.sin(a) for a in circle], [r * math.cos(a) for a in circle], '#e4e4e4')
+    axes.text(0.0, -0.62 * r, 'ball', ha='center', va='center', color='#666666')
+    top = max(1.6 * r, 1.5 * abs(com))
+    base = min(0.1 * r, r * math.cos(design.contact_end_angle))
+    rim = [a * side for a in _between(design.contact_start_angle, design.contact_end_angle)]
+    shell = [(r * math.sin(a), r * math.cos(a)) for a in _between(-math.pi / 2, math.pi / 2)]
+    outline = [(-1.12 * arm, base), (-1.12 * arm, top), (1.12 * arm, top), (1.12 * arm, base)]
+    body = [turned(x, z) for x, z in [*outline, *reversed([p for p in shell if p[1] >= base])]]
+    axes.fill([x for x, _ in body], [z for _, z in body], facecolor='#cfe3f1', edgecolor=BLUE)
+    polyline(
+        [turned(r * math.sin(a), r * math.cos(a)) for a in rim],
+        color=VERMILION,
+        linewidth=5.0,
+        solid_capstyle='butt',
+    )
+
+    # Axes and the angle between them.
+    length = 1.25 * top
+    polyline([(0.0, 0.0), (0.0, length)], color='black', linewidth=0.8, linestyle='--')
+    polyline([(0.0, 0.0), turned(0.0, length)], color='black', linewidth=0.8, linestyle='--')
+    polyline(
+        [(1.15 * top * math.sin(a), 1.15 * top * math.cos(a)) for a in _between(0.0, theta)],
+        color='black',
+        linewidth=1.0,
+    )
+    middle = 0.5 * theta
+    axes.text(1.2 * top * math.sin(middle), 1.2 * top * math.cos(middle), 'θ', ha='center')
+
+    # Forces: the cables pull along the unit's axis, the weight down.
+    pull = 0.9 * top
+    for name, tension, x in (
+        ('l', equilibrium.tension_l, -arm),
+        ('s', equilibrium.tension_s, arm),
+    ):
+        longest = max(equilibrium.tension_l, equilibrium.tension_s)
+        end = turned(x, base - 0.35 * pull - 0.65 * pull * tension / longest)
+        arrow(turned(x, top), end, GREEN)
+        axes.annotate(
+            f'T_{name} = {tension:g} N',
+            end,
+            xytext=(0, -4),
+            textcoords='offset points',
+            ha='center',
+            va='top',
+            color=GREEN,
+        )
+    centre = turned(0.0, com)
+    arrow(centre, (centre[0], centre[1] - 0.55 * r), ORANGE)
+    axes.plot(*centre, 'o', color=ORANGE, markersize=6)
+    axes.annotate('W, at l', centre, xytext=(7, 2), textcoords='offset points', color='black')
+    axes.plot(0.0, 0.0, 'o', color='black', markersize=3)
+
+    contact = 0.5 * (design.contact_start_angle + design.contact_end_angle) * side
+    axes.annotate(
+        'contact zone,\nθ1 to θ2',
+        turned(r * math.sin(contact), r * math.cos(contact)),
+        xytext=(side * 1.75 * arm, -0.4 * top),
+        ha='center',
+        color=VERMILION,
+        arrowprops={'arrowstyle': '-', 'color': VERMILION, 'linewidth': 0.8},
+    )
+    axes.set_aspect('equal')
+    axes.set_xlabel('X_G, towards cable s [mm]')
+    axes.set_ylabel('Z_G [mm]')
+    axes.set_xlim(-2.2 * arm, 2.2 * arm)
+    axes.set_ylim(-1.3 * top, 1.35 * top)
+    axes.set_title(
+        f'θ = {math.degrees(theta):.2f}°, p = {equilibrium.pressure:.1f} Pa, '
+        + _title(equilibrium),
+        fontsize=10,
+    )
+
+
+def _between(start: float, end: float, count: int = 41) -> list[float]:
+    return [start + (end - start) * index / (count - 1) for index in range(count)]
+
+
+def _title(equilibrium: Equilibrium) -> str:
+    return (
+        f'{equilibrium.regime} at T_l = {equilibrium.tension_l:g} N, '
+        f'T_s = {equilibrium.tension_s:g} N'
+    )
+
+
+FIGURES = {
+    'residual': ("Eq. (4) over the bend angle (the paper's Fig. 2)", _draw_residual),
+    'unit': ("the unit at its bend angle, with what acts on it (the paper's Fig. 1)", _draw_unit),
+}
+"""Figure → what it shows, and what draws it."""

@@ -43,13 +43,17 @@ def _text(equilibrium: Equilibrium) -> list[str]:
         f'bend angle    {math.degrees(equilibrium.bend_angle):.4f} deg '
         f'({equilibrium.bend_angle:.10f} rad), towards cable '
         f'{"s" if equilibrium.bend_angle > 0 else "l"}',
-        f'pressure      {equilibrium.pressure:.4f} Pa (contact force {equilibrium.normal_force:.6f} N)',
+        f'pressure      {equilibrium.pressure:.4f} Pa '
+        f'(contact force {equilibrium.normal_force:.6f} N)',
     ]
     if equilibrium.regime is Regime.EQUILIBRIUM:
         lines.append(
             f'roots         {equilibrium.root_count}, '
-            + ('this one stable' if equilibrium.stable else
-               'this one unstable: pushed past it, the unit slides on to the stop')
+            + (
+                'this one stable'
+                if equilibrium.stable
+                else 'this one unstable: pushed past it, the unit slides on to the stop'
+            )
         )
     gradient, pressure_gradient = equilibrium.bend_angle_gradient, equilibrium.pressure_gradient
     if gradient and pressure_gradient:
@@ -65,6 +69,8 @@ def _text(equilibrium: Equilibrium) -> list[str]:
             f'{equilibrium.force_remainder.z:+.3f} N in Z_G of the two force equations'
         )
     if not equilibrium.branch_consistent:
-        lines.append('warning       the forces do not ask for the root that was taken '
-                     '(mu N sin(beta + theta) <= W)')
+        lines.append(
+            'warning       the forces do not ask for the root that was taken '
+            '(mu N sin(beta + theta) <= W)'
+        )
     return lines

@@ -12,10 +12,14 @@ def markdown_table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     widths = [max(map(len, column)) for column in zip(titles, *rows, strict=True)]
 
     def line(cells: Sequence[str]) -> str:
-        return '| ' + ' | '.join(
-            cell.rjust(width) if is_right else cell.ljust(width)
-            for cell, width, is_right in zip(cells, widths, right, strict=True)
-        ) + ' |'
+        return (
+            '| '
+            + ' | '.join(
+                cell.rjust(width) if is_right else cell.ljust(width)
+                for cell, width, is_right in zip(cells, widths, right, strict=True)
+            )
+            + ' |'
+        )
 
     rule = '|'.join(
         '-' * (width + 1) + (':' if is_right else '-')

@@ -9,6 +9,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.time import Time
@@ -29,8 +30,8 @@ INVALID = 'invalid'
 MAX_TENSION_STDDEV = 1000.0
 """Largest standard deviation of a tension in N that is taken."""
 
-INPUT_DEPTH = 100
-"""Tension messages kept while the node is busy: a burst of a driver is not lost."""
+INPUT_DEPTH = 1000
+"""Tension messages kept while the node is busy, so that a burst or a stall loses none."""
 
 
 class Estimator(Node):
@@ -79,7 +80,7 @@ class Estimator(Node):
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
 
-    def _publisher(self, message_type: type, topic: str):
+    def _publisher(self, message_type: type, topic: str) -> Publisher:
         return self.create_publisher(
             message_type,
             topic,
@@ -94,7 +95,8 @@ class Estimator(Node):
             dynamic_typing=True,
         )
         parameter = Parameter(
-            'tension_stddev', value=self.declare_parameter('tension_stddev', 0.01, descriptor).value
+            'tension_stddev',
+            value=self.declare_parameter('tension_stddev', 0.01, descriptor).value,
         )
         return _checked_stddev(parameter.value)
 
@@ -157,7 +159,9 @@ class Estimator(Node):
 
     # Services
 
-    def _on_solve(self, request, response):
+    def _on_solve(
+        self, request: messages.Solve.Request, response: messages.Solve.Response
+    ) -> messages.Solve.Response:
         try:
             equilibrium = solve(self._design, request.tension_l, request.tension_s)
         except TensionError as error:
@@ -197,9 +201,7 @@ def _checked_stddev(value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise StartError(f'tension_stddev is {value!r}, which is not a number in N')
     if not 0.0 <= value <= MAX_TENSION_STDDEV:
-        raise StartError(
-            f'tension_stddev is {value!r}, allowed is 0 to {MAX_TENSION_STDDEV:g} N'
-        )
+        raise StartError(f'tension_stddev is {value!r}, allowed is 0 to {MAX_TENSION_STDDEV:g} N')
     return float(value)
 
 

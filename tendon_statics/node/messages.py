@@ -9,6 +9,17 @@ from std_msgs.msg import Float64MultiArray, Header
 
 from ..physics import Equilibrium, JointDesign, TensionError
 
+__all__ = [
+    'INTERFACES_MISSING',
+    'Estimate',
+    'Solve',
+    'estimate',
+    'fill_solve_response',
+    'refuse_solve',
+    'tensions_from_array',
+    'unit_pose',
+]
+
 # The node works without the package nested in interfaces/, but offers less.
 try:
     from tendon_statics_interfaces.msg import Estimate

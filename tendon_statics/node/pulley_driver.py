@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.node import Node
@@ -42,7 +43,7 @@ class PulleyDriver(Node):
         self._tensions = self.create_publisher(Float64MultiArray, 'tensions', 10)
         self._timer = self.create_timer(1.0 / rate, self._play)
 
-    def _parameter(self, name: str, default, description: str, **ranges):
+    def _parameter(self, name: str, default: Any, description: str, **ranges: Any) -> Any:
         descriptor = ParameterDescriptor(description=description, read_only=True, **ranges)
         return self.declare_parameter(name, default, descriptor).value
 

@@ -49,7 +49,9 @@ class DesignParameter:
         except OverflowError:
             number = math.inf
         if not self.minimum <= number <= self.maximum:
-            hint = ' (angles are in radians)' if self.unit == 'rad' and math.isfinite(number) else ''
+            hint = (
+                ' (angles are in radians)' if self.unit == 'rad' and math.isfinite(number) else ''
+            )
             raise DesignError(
                 f'{self.name} is {number!r}, allowed is {self.allowed}{hint}', key=self.name
             )

@@ -65,9 +65,7 @@ def normal_force_ratios(
     return ratios
 
 
-def residual(
-    design: JointDesign, tension_l: float, tension_s: float, bend_angle: float
-) -> float:
+def residual(design: JointDesign, tension_l: float, tension_s: float, bend_angle: float) -> float:
     """g(θ) = N_m − N_f in N: the corrected Eq. (4), multiplied by the contact area C w.
 
     For a unit that slips towards cable s; for the other side swap the tensions and negate the

@@ -87,6 +87,4 @@ def moment_pressure(
     weight = design.weight * design.com_distance * math.sin(bend_angle)
     friction_square = arc.friction_x**2 + arc.friction_z**2
     resisting_arm = design.friction_coefficient * design.ball_radius
-    return (cables + weight) / (
-        resisting_arm * math.sqrt(friction_square) * design.contact_width
-    )
+    return (cables + weight) / (resisting_arm * math.sqrt(friction_square) * design.contact_width)

@@ -33,7 +33,7 @@ class SlipEquation:
         self._friction_weight = design.friction_coefficient * weight
 
     def residual(self, bend_angle: float) -> float:
-        """g in N at an angle in rad."""
+        """G in N at an angle in rad."""
         moment, force, _ = self._ratios(bend_angle)
         return self._total * (moment - force)
 
@@ -77,16 +77,17 @@ class SlipEquation:
         The root is where the chord over the last bracket is zero, which makes it as exact as g.
         """
         ratios = self._ratios
-        moment, force, _ = ratios(high)
-        rising = moment >= force
+        # The sign at `low`; at `high` g may be zero.
+        moment, force, _ = ratios(low)
+        rising = moment < force
         iterations = 0
         while high - low > BEND_ANGLE_TOLERANCE:
             middle = 0.5 * (low + high)
             moment, force, _ = ratios(middle)
-            if (moment >= force) is rising:
-                high = middle
-            else:
+            if (moment < force) if rising else (moment > force):
                 low = middle
+            else:
+                high = middle
             iterations += 1
         at_low, at_high = self.residual(low), self.residual(high)
         if at_low == at_high:

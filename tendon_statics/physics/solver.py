@@ -64,9 +64,7 @@ def solve(design: JointDesign, tension_l: float, tension_s: float) -> Equilibriu
     )
 
 
-def check_tensions(
-    design: JointDesign, tension_l: float, tension_s: float
-) -> tuple[float, float]:
+def check_tensions(design: JointDesign, tension_l: float, tension_s: float) -> tuple[float, float]:
     """Return the two tensions as floats if the model takes them; a slack cable (0 N) it does.
 
     Raises
@@ -74,7 +72,7 @@ def check_tensions(
     TensionError
         As `solve` does.
     """
-    checked = []
+    checked: list[float] = []
     for name, value in (('tension_l', tension_l), ('tension_s', tension_s)):
         if isinstance(value, bool) or not isinstance(value, numbers.Real):
             raise TensionError(f'{name} is {value!r}, which is not a number; it is taken in N')
@@ -140,9 +138,13 @@ def _equilibrium_at(
     if slope != 0.0 and root > 0.0:
         lever = (design.ball_radius + design.cable_offset) / (friction * design.ball_radius)
         by_total = (total - normal_force) / root
-        by_angle = friction * weight * normal_force * math.cos(
-            design.contact_centre_angle + bend_angle
-        ) / root
+        by_angle = (
+            friction
+            * weight
+            * normal_force
+            * math.cos(design.contact_centre_angle + bend_angle)
+            / root
+        )
         angle_by_weak = (lever + by_total) / slope
         angle_by_strong = -(lever - by_total) / slope
         pressure_by_weak = (by_total + by_angle * angle_by_weak) / design.contact_area

@@ -1,0 +1,28 @@
+"""Keeps every test on this machine and in a ROS domain of its own run."""
+
+import os
+
+import pytest
+
+os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+# Without it `Float64(data=3)` is silently taken.
+os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
+
+
+@pytest.fixture(scope='session', autouse=True)
+def ros_domain():
+    """Take a ROS domain that no other run on this machine has, and hold it to the end."""
+    from domain_coordinator import domain_id
+
+    with domain_id() as domain:
+        os.environ['ROS_DOMAIN_ID'] = str(domain)
+        yield domain
+
+
+@pytest.fixture
+def listener():
+    """A node that keeps what the estimator publishes."""
+    from ros_programs import Listener, spinning
+
+    with spinning(Listener) as node:
+        yield node

@@ -1,0 +1,155 @@
+"""``tendon-statics`` as a program: output, exit codes, one-line errors."""
+
+import json
+import math
+import subprocess
+import sys
+from dataclasses import asdict
+
+import pytest
+from designs import PRELIMINARY
+
+from tendon_statics import Equilibrium, default_design_path, solve
+
+PROGRAM = [sys.executable, '-m', 'tendon_statics.command_line.main']
+CASE = ['solve', '--tension-l', '1', '--tension-s', '2']
+
+
+def run(*arguments: str) -> subprocess.CompletedProcess:
+    return subprocess.run(
+        [*PROGRAM, *arguments], capture_output=True, text=True, timeout=60, check=False
+    )
+
+
+def test_solve_as_text_gives_the_published_case():
+    done = run(*CASE)
+    assert done.returncode == 0
+    assert done.stderr == ''
+    assert '17.1400 deg' in done.stdout
+    assert '405.6000 Pa' in done.stdout
+    assert 'equilibrium' in done.stdout
+
+
+def test_solve_as_json_has_the_fields_of_equilibrium():
+    done = run(*CASE, '--format', 'json')
+    answer = json.loads(done.stdout)
+    assert list(answer) == list(Equilibrium._fields)
+    assert answer == json.loads(json.dumps(solve(PRELIMINARY, 1.0, 2.0).as_dict()))
+    assert math.degrees(answer['bend_angle']) == pytest.approx(17.14, abs=1e-5)
+
+
+def test_what_is_not_determined_is_null_in_json_and_left_out_in_text():
+    tensions = ('solve', '--tension-l', '1', '--tension-s', '1.5')
+    answer = json.loads(run(*tensions, '--format', 'json').stdout)
+    assert answer['regime'] == 'held'
+    assert answer['bend_angle'] is None
+    text = run(*tensions)
+    assert text.returncode == 0
+    assert 'held' in text.stdout
+    assert 'deg' not in text.stdout
+
+
+def test_a_design_file_is_used(tmp_path):
+    path = tmp_path / 'unit.yaml'
+    text = default_design_path().read_text().replace('max_bend_angle: 0.5', 'max_bend_angle: 0.4')
+    path.write_text(text)
+    stop = ('solve', '--tension-l', '1', '--tension-s', '3', '--format', 'json')
+    one, other = (
+        json.loads(run(*stop, *more).stdout)['bend_angle']
+        for more in ((), ('--design', str(path)))
+    )
+    assert one - other == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'named'),
+    [
+        ([], 'VERB'),
+        (['tie'], 'tie'),
+        (['solve', '--tension-l', '1'], '--tension-s'),
+        (['solve', '--tension-l', 'one', '--tension-s', '2'], "'one'"),
+        (['solve', '--tension-l', 'nan', '--tension-s', '2'], 'nan'),
+        (['solve', '--tension-l', '-1', '--tension-s', '2'], '-1.0'),
+        (['solve', '--tension-l', '0.05', '--tension-s', '0.1'], 'weight'),
+        ([*CASE, '--design', 'missing.yaml'], 'missing.yaml'),
+        ([*CASE, '--format', 'xml'], 'xml'),
+        (['plot', 'residual', '--output', 'figure.doc'], 'figure.doc'),
+        (['plot', 'residual', '--output', '/no/such/folder/figure.svg'], 'cannot be written'),
+        (['plot'], 'FIGURE'),
+        (['paper', '--section', 'none'], 'none'),
+    ],
+)
+def test_an_error_is_one_line_and_exit_code_2(arguments, named):
+    done = run(*arguments)
+    assert done.returncode == 2
+    assert done.stdout == ''
+    assert done.stderr.startswith('tendon-statics: ')
+    assert done.stderr.count('\n') == 1
+    assert named in done.stderr
+
+
+def test_help_names_every_verb():
+    done = run('--help')
+    assert done.returncode == 0
+    for verb in ('solve', 'design', 'paper', 'plot'):
+        assert verb in done.stdout
+        assert run(verb, '--help').returncode == 0
+
+
+def test_design_shows_every_value():
+    shown = run('design').stdout
+    for name, value in asdict(PRELIMINARY).items():
+        assert f'`design.{name}`' in shown
+        assert f'{value:.7g}' in shown
+
+
+@pytest.mark.parametrize('ending', ['svg', 'png', 'pdf'])
+def test_a_figure_is_written_the_same_each_time(tmp_path, ending):
+    files = [tmp_path / f'{i}.{ending}' for i in range(2)]
+    for file in files:
+        assert run('plot', 'residual', '--output', str(file)).returncode == 0
+        assert file.stat().st_size > 2000
+    if ending == 'svg':
+        assert files[0].read_bytes() == files[1].read_bytes()
+
+
+def test_a_reader_that_stops_reading_is_no_error():
+    done = subprocess.run(
+        ['bash', '-c', f'{" ".join(PROGRAM)} design | head -n 1; echo ${{PIPESTATUS[0]}}'],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    assert done.stdout.splitlines()[-1] == '0'
+    assert done.stderr == ''
+
+
+def test_the_physics_needs_neither_ros_nor_files_nor_the_command_line():
+    """It is imported alone, with all of these made to fail."""
+    barred = ['rclpy', 'yaml', 'std_msgs', 'argparse', 'json', 'scipy', 'matplotlib']
+    code = (
+        f'import sys; sys.modules.update(dict.fromkeys({barred!r}))\n'
+        'from tendon_statics.physics import JointDesign, solve\n'
+        'ours = [name for name in sys.modules if name.startswith("tendon_statics.")]\n'
+        'assert not [n for n in ours if ".node" in n or ".command_line" in n], ours\n'
+    )
+    subprocess.run([sys.executable, '-c', code], check=True, timeout=60)
+
+
+@pytest.mark.parametrize(
+    ('room', 'others'), [('node', ['command_line']), ('command_line', ['node', 'rclpy'])]
+)
+def test_node_and_command_line_do_not_import_each_other(room, others):
+    from pathlib import Path
+
+    import tendon_statics
+
+    for path in Path(tendon_statics.__file__).parent.joinpath(room).rglob('*.py'):
+        imports = [
+            line
+            for line in path.read_text(encoding='utf-8').splitlines()
+            if line.strip().startswith(('import ', 'from '))
+        ]
+        for line in imports:
+            assert not any(other in line for other in others), f'{path}: {line}'

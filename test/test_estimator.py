@@ -1,0 +1,438 @@
+"""The installed node ``estimator`` over real ROS: topics, services, parameters, signals."""
+
+import json
+import math
+import signal
+import sys
+import threading
+
+import pytest
+from designs import PRELIMINARY
+from rcl_interfaces.msg import ParameterType, ParameterValue
+from rclpy.qos import ReliabilityPolicy
+from ros_programs import Program, wait_for
+from tendon_statics_interfaces.msg import Estimate
+
+from tendon_statics import Regime, default_design_path, load_design, solve
+from tendon_statics.physics import design_parameters
+
+HELD, SLIPPING, STOP, SLACK = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0), (0.0, 2.0)
+MALFORMED = [
+    (),
+    (1.0,),
+    (1.0, 2.0, 3.0),
+    (math.nan, 2.0),
+    (1.0, math.inf),
+    (-1.0, 2.0),
+    (0.05, 0.1),
+    tuple(range(1000)),
+]
+
+
+def double(value: float) -> ParameterValue:
+    return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
+
+
+def integer(value: int) -> ParameterValue:
+    return ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=value)
+
+
+def text(value: str) -> ParameterValue:
+    return ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=value)
+
+
+def test_the_published_case_on_every_topic(listener):
+    with listener.estimator():
+        assert listener.answer(*SLIPPING) == 'equilibrium'
+        wait_for('the numbers', lambda: listener.estimates and listener.unit_poses)
+        wait_for('the angle', lambda: listener.bend_angles and listener.joint_pressures)
+    expected = solve(PRELIMINARY, *SLIPPING)
+    assert listener.bend_angles == [expected.bend_angle]
+    assert listener.joint_pressures == [expected.pressure]
+    assert math.degrees(listener.bend_angles[0]) == pytest.approx(17.14, abs=1e-5)
+    assert listener.joint_pressures[0] == pytest.approx(405.6, abs=1e-5)
+
+    (pose,) = listener.unit_poses
+    stddev = expected.bend_angle_stddev(0.01)
+    arm = PRELIMINARY.com_distance
+    assert pose.header.frame_id == 'joint'
+    assert pose.pose.pose.position.x == pytest.approx(arm * math.sin(expected.bend_angle))
+    assert pose.pose.pose.position.z == pytest.approx(arm * math.cos(expected.bend_angle))
+    assert pose.pose.pose.orientation.y == pytest.approx(math.sin(expected.bend_angle / 2))
+    assert pose.pose.pose.orientation.w == pytest.approx(math.cos(expected.bend_angle / 2))
+    covariance = pose.pose.covariance.reshape(6, 6)
+    assert covariance[4, 4] == pytest.approx(stddev**2)
+    assert covariance[0, 0] == pytest.approx((arm * math.cos(expected.bend_angle) * stddev) ** 2)
+    assert (covariance == covariance.T).all()
+
+    (estimate,) = listener.estimates
+    assert estimate.header == pose.header
+    assert estimate.header.stamp.sec > 0
+    assert estimate.regime == Estimate.EQUILIBRIUM
+    assert (estimate.tension_l, estimate.tension_s) == SLIPPING
+    assert estimate.bend_angle == expected.bend_angle
+    assert estimate.bend_angle_stddev == pytest.approx(stddev)
+    assert estimate.pressure == expected.pressure
+    assert estimate.root_count == 1
+    assert estimate.stable is False
+    assert estimate.branch_consistent is True
+    assert estimate.force_remainder_x == expected.force_remainder.x
+    assert estimate.friction_force_z == expected.forces.friction_z
+    assert estimate.bend_angle_by_tension_l == expected.bend_angle_gradient.tension_l
+    assert estimate.pressure_by_tension_s == expected.pressure_gradient.tension_s
+
+
+def test_numbers_go_out_only_where_the_model_determines_them(listener):
+    rows = (HELD, SLACK, STOP, HELD, SLIPPING[::-1], SLACK, (0.05, 0.1))
+    with listener.estimator():
+        assert [listener.answer(*row) for row in rows] == [
+            'held',
+            'slack',
+            'driven_to_stop',
+            'held',
+            'equilibrium',
+            'slack',
+            'invalid',
+        ]
+        # A last message that has numbers: what was published before it has come by then.
+        listener.answer(*STOP)
+        wait_for('the last numbers', lambda: len(listener.estimates) == len(rows))
+        wait_for('the last angle', lambda: len(listener.bend_angles) >= 3)
+        wait_for('the last pressure', lambda: len(listener.joint_pressures) >= 3)
+        wait_for('the last pose', lambda: len(listener.unit_poses) >= 3)
+    stop, slip = PRELIMINARY.max_bend_angle, solve(PRELIMINARY, *SLIPPING).bend_angle
+    assert listener.bend_angles == [stop, -slip, stop]
+    assert len(listener.joint_pressures) == len(listener.unit_poses) == 3
+    regimes = [estimate.regime for estimate in listener.estimates]
+    assert regimes == [
+        *('held', 'slack', 'driven_to_stop', 'held', 'equilibrium', 'slack'),
+        'driven_to_stop',
+    ]
+    for estimate in listener.estimates:
+        assert math.isnan(estimate.bend_angle) == (estimate.regime in ('held', 'slack'))
+        assert math.isnan(estimate.pressure) == math.isnan(estimate.bend_angle)
+
+
+def test_the_regimes_of_the_message_are_those_of_the_physics():
+    constants = {Estimate.EQUILIBRIUM, Estimate.HELD, Estimate.DRIVEN_TO_STOP, Estimate.SLACK}
+    assert constants == {regime.value for regime in Regime}
+
+
+def test_a_storm_of_malformed_messages_loses_nothing_of_the_good_ones(listener):
+    """Bursts of 440 messages as fast as they can be sent, one in eleven of them good."""
+    good = [(1.0, 2.9 + 0.001 * index) for index in range(400)]
+    with listener.estimator() as program:
+        for index, row in enumerate(good):
+            for burst in range(10):
+                listener.publish(*MALFORMED[(index + burst) % len(MALFORMED)])
+            listener.publish(*row)
+            if index % 40 == 39:
+                expected = 11 * (index + 1)
+                wait_for(f'answer {expected}', lambda n=expected: len(listener.regimes) >= n)
+        wait_for('every estimate', lambda: len(listener.estimates) == len(good))
+        wait_for('every angle', lambda: len(listener.bend_angles) == len(good))
+        assert program.process.poll() is None
+        output = program.output()
+    assert listener.regimes.count('invalid') == 10 * len(good)
+    assert listener.regimes.count('driven_to_stop') == len(good)
+    assert [(e.tension_l, e.tension_s) for e in listener.estimates] == good
+    # Warned about, but not once a message.
+    assert 1 <= output.count('Invalid message') < 40
+    assert 'Traceback' not in output
+
+
+@pytest.mark.parametrize('row', MALFORMED, ids=lambda row: str(row[:3]))
+def test_a_malformed_message_gives_the_regime_invalid_and_nothing_else(row, listener):
+    with listener.estimator() as program:
+        assert listener.answer(*row) == 'invalid'
+        assert listener.answer(*SLIPPING) == 'equilibrium'
+        wait_for('the good one', lambda: listener.estimates and listener.bend_angles)
+        assert len(listener.estimates) == len(listener.bend_angles) == 1
+        assert 'Invalid message on /tensions (1 so far)' in program.output()
+
+
+def test_solve_answers_every_regime_and_refuses_bad_input(listener):
+    with listener.estimator():
+        answer = listener.solve(*SLIPPING)
+        expected = solve(PRELIMINARY, *SLIPPING)
+        assert answer.success
+        assert answer.message == ''
+        assert answer.regime == 'equilibrium'
+        assert answer.bend_angle == expected.bend_angle
+        assert answer.pressure == expected.pressure
+        assert answer.bend_angle_stddev == pytest.approx(expected.bend_angle_stddev(0.01))
+        assert answer.root_count == 1
+        assert answer.stable is False
+
+        held = listener.solve(*HELD)
+        assert held.success
+        assert held.regime == 'held'
+        assert math.isnan(held.bend_angle)
+        assert math.isnan(held.pressure)
+        assert math.isnan(held.bend_angle_stddev)
+
+        for bad, named in (
+            ((math.nan, 1.0), 'nan'),
+            ((-1.0, 1.0), '-1.0'),
+            ((0.05, 0.1), 'weight'),
+        ):
+            refused = listener.solve(*bad)
+            assert not refused.success
+            assert named in refused.message
+            assert refused.regime == ''
+            assert math.isnan(refused.bend_angle)
+        assert listener.solve(*STOP).success
+
+
+def test_solve_latest_gives_the_newest_valid_pair(listener):
+    # Reliable, so that not even the first message is lost.
+    override = 'qos_overrides./tensions.subscription.reliability:=reliable'
+    with listener.estimator('-p', override, greet=False):
+        nothing = listener.solve_latest()
+        assert not nothing.success
+        assert 'no valid tensions' in nothing.message
+
+        listener.answer(math.nan, 1.0)
+        assert (
+            'the newest message was invalid: tension_l is nan' in listener.solve_latest().message
+        )
+
+        listener.answer(*HELD)
+        listener.answer(*SLIPPING)
+        listener.answer(1.0)
+        answer = listener.solve_latest()
+        assert answer.success
+        result = json.loads(answer.message)
+        expected = solve(PRELIMINARY, *SLIPPING)
+        assert {key: result[key] for key in expected.as_dict()} == json.loads(
+            json.dumps(expected.as_dict())
+        )
+        assert result['bend_angle_stddev'] == pytest.approx(expected.bend_angle_stddev(0.01))
+        assert result['invalid_since'] == 1
+        assert 0.0 <= result['age'] < 60.0
+
+        # The pair was valid for the design of then.
+        assert listener.set_estimator_parameters(design__mass=double(1.0)).successful
+        refused = listener.solve_latest()
+        assert not refused.success
+        assert 'weight' in refused.message
+
+
+def test_a_changed_design_applies_to_the_next_message(listener):
+    with listener.estimator():
+        assert listener.answer(*SLIPPING) == 'equilibrium'
+        assert listener.set_estimator_parameters(design__max_bend_angle=double(0.2)).successful
+        assert listener.answer(*STOP) == 'driven_to_stop'
+        wait_for('the angle', lambda: len(listener.bend_angles) == 2)
+        assert listener.bend_angles[1] == 0.2
+        # A whole number is a number.
+        assert listener.set_estimator_parameters(
+            design__friction_coefficient=integer(1)
+        ).successful
+        assert listener.solve(*SLIPPING).success
+        assert listener.set_estimator_parameters(tension_stddev=integer(0)).successful
+        assert listener.solve(1.0, 3.0).bend_angle_stddev == 0.0
+
+
+@pytest.mark.parametrize(
+    ('changes', 'named'),
+    [
+        ({'design__mass': double(-1.0)}, 'mass'),
+        ({'design__mass': double(math.nan)}, 'mass'),
+        ({'design__mass': integer(-1)}, 'design.mass is -1.0, allowed is 0 to 100 kg'),
+        ({'design__mass': text('heavy')}, "design.mass is 'heavy', which is not a number"),
+        ({'design__mass': ParameterValue()}, 'mass'),
+        ({'design__contact_end_angle': double(0.5)}, 'the end must exceed the start'),
+        # The first of the two would do alone.
+        (
+            {'design__mass': double(0.05), 'design__ball_radius': double(0.0)},
+            'ball_radius',
+        ),
+        ({'design__mass': double(0.05), 'design__masss': double(0.1)}, 'undeclared parameter'),
+        ({'design__mass': double(0.05), 'tension_stddev': double(-1.0)}, 'tension_stddev'),
+        ({'design__mass': double(0.05), 'tension_stddev': text('x')}, 'tension_stddev'),
+    ],
+    ids=lambda value: value if isinstance(value, str) else 'rejected',
+)
+def test_a_change_that_is_not_valid_is_rejected_as_a_whole(changes, named, listener):
+    with listener.estimator():
+        result = listener.set_estimator_parameters(**changes)
+        assert not result.successful
+        assert named in result.reason
+        assert listener.estimator_parameter('design.mass') == PRELIMINARY.mass
+        assert listener.answer(*SLIPPING) == 'equilibrium'
+        wait_for('the angle', lambda: listener.bend_angles)
+        assert listener.bend_angles == [solve(PRELIMINARY, *SLIPPING).bend_angle]
+
+
+def test_two_angles_that_only_fit_together_change_together(listener):
+    with listener.estimator():
+        result = listener.set_estimator_parameters(
+            design__contact_start_angle=double(1.6), design__contact_end_angle=double(2.0)
+        )
+        assert result.successful, result.reason
+
+
+def test_every_design_parameter_is_described_with_unit_and_range(listener):
+    with listener.estimator():
+        known = design_parameters()
+        described = listener.describe_estimator_parameters(*(f'design.{p.name}' for p in known))
+        for parameter, descriptor in zip(known, described, strict=True):
+            assert f'[{parameter.unit}]' in descriptor.description or not parameter.unit
+            (limits,) = descriptor.floating_point_range
+            assert (limits.from_value, limits.to_value) == (parameter.minimum, parameter.maximum)
+
+
+def test_the_design_comes_from_the_file_that_load_design_reads(tmp_path, listener):
+    """Also with whole numbers and with exponents that lack a point."""
+    path = tmp_path / 'unit.yaml'
+    source = default_design_path().read_text()
+    path.write_text(
+        source.replace('friction_coefficient: 1.05', 'friction_coefficient: 1').replace(
+            'com_distance: 0.008', 'com_distance: 8e-3'
+        )
+    )
+    design = load_design(path)
+    assert design != PRELIMINARY
+    with listener.estimator('--params-file', str(path)):
+        for parameter in design_parameters():
+            value = getattr(design, parameter.name)
+            assert listener.estimator_parameter(f'design.{parameter.name}') == value
+
+
+def test_a_part_of_a_design_is_completed_with_a_warning(listener):
+    with listener.estimator('-p', 'design.mass:=0.03') as program:
+        assert listener.estimator_parameter('design.mass') == 0.03
+        assert 'design.ball_radius = 0.0078' in program.output()
+
+
+@pytest.mark.parametrize(
+    ('argument', 'named'),
+    [
+        ('design.mass:=-1.0', 'design.mass is -1.0, allowed is 0 to 100 kg'),
+        ('design.mass:=.nan', 'design.mass is nan'),
+        ('design.mass:=heavy', "design.mass is 'heavy', which is not a number"),
+        ('design.masss:=1.0', 'design.masss is 1.0, but there is no such design parameter'),
+        ('design.contact_end_angle:=0.1', 'the end must exceed the start'),
+        ('tension_stddev:=-1.0', 'tension_stddev'),
+        ('tension_stddev:=lots', 'tension_stddev'),
+        ('frame_id:=1', 'frame_id'),
+    ],
+)
+def test_a_bad_parameter_at_the_start_is_one_line_and_exit_code_1(argument, named):
+    with Program.running('estimator', '--ros-args', '-p', argument) as program:
+        assert program.wait() == 1
+        (line,) = program.output().splitlines()
+        assert line.startswith('estimator cannot start: ')
+        assert named in line
+
+
+def test_a_corrupt_parameter_file_ends_the_start_without_a_traceback(tmp_path):
+    path = tmp_path / 'corrupt.yaml'
+    path.write_text('/**:\n  ros__parameters: [')
+    with Program.running('estimator', '--ros-args', '--params-file', str(path)) as program:
+        assert program.wait() == 1
+        assert 'estimator cannot start: ' in program.output()
+        assert str(path) in program.output()
+        assert 'Traceback' not in program.output()
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM], ids=lambda n: n.name)
+@pytest.mark.parametrize('under_load', [False, True], ids=['idle', 'under load'])
+def test_a_signal_ends_it_within_two_seconds_with_exit_code_0(number, under_load, listener):
+    with listener.estimator() as program:
+        ended = threading.Event()
+
+        def stream() -> None:
+            for index in range(200_000):
+                if ended.is_set():
+                    return
+                listener.publish(1.0, 1.9 + 0.0001 * (index % 2000))
+
+        thread = threading.Thread(target=stream)
+        if under_load:
+            thread.start()
+            wait_for('the load', lambda: len(listener.regimes) > 200)
+        try:
+            assert program.end(number, time_limit=2.0) == 0, program.output()
+        finally:
+            ended.set()
+            if under_load:
+                thread.join()
+        assert 'Traceback' not in program.output()
+        assert 'terminate' not in program.output()
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM], ids=lambda n: n.name)
+def test_a_signal_while_the_node_is_made_ends_it_with_exit_code_0(number):
+    """The signal is sent by the program itself, before and in the midst of making the node."""
+    for moment in ('rclpy.init', 'Estimator._publisher'):
+        code = (
+            'import os, sys, rclpy\n'
+            'from tendon_statics.node.estimator import Estimator, main\n'
+            f'original = {moment}\n'
+            'def interrupted(*arguments, **options):\n'
+            f'    os.kill(os.getpid(), {int(number)})\n'
+            '    return original(*arguments, **options)\n'
+            f'{moment} = interrupted\n'
+            'sys.exit(main())\n'
+        )
+        if (number, moment) == (signal.SIGTERM, 'rclpy.init'):
+            continue  # Nobody has taken SIGTERM over yet: it ends the process by itself.
+        with Program.running_command([sys.executable, '-c', code]) as program:
+            assert program.wait() == 0, program.output()
+            assert 'Traceback' not in program.output()
+
+
+def test_without_the_interfaces_it_runs_and_says_how_to_build_them(listener):
+    """The interfaces package made not to be there, in the program's own process."""
+    code = (
+        'import sys; sys.modules["tendon_statics_interfaces"] = None\n'
+        'from tendon_statics.node.estimator import main\n'
+        'sys.exit(main())\n'
+    )
+    with Program.running_command([sys.executable, '-c', code]) as program:
+        listener.connect(program, without='estimate')
+        assert listener.answer(*SLIPPING) == 'equilibrium'
+        wait_for('the angle', lambda: listener.bend_angles)
+        answer = listener.solve_latest()
+        assert answer.success
+        assert json.loads(answer.message)['regime'] == 'equilibrium'
+        services = [
+            name for name, _ in listener.get_service_names_and_types_by_node('estimator', '/')
+        ]
+        assert '/estimator/solve' not in services
+        assert program.output().count('colcon build --base-paths . interfaces') == 1
+        assert program.end() == 0
+
+
+def test_inputs_are_best_effort_outputs_reliable_and_both_can_be_overridden(listener):
+    def reliability(infos) -> ReliabilityPolicy:
+        (info,) = [info for info in infos if info.node_name == 'estimator']
+        return info.qos_profile.reliability
+
+    with listener.estimator():
+        taken = listener.get_subscriptions_info_by_topic('/tensions')
+        assert reliability(taken) == ReliabilityPolicy.BEST_EFFORT
+        for topic in ('regime', 'bend_angle', 'joint_pressure', 'unit_pose', 'estimate'):
+            given = listener.get_publishers_info_by_topic(f'/estimator/{topic}')
+            assert reliability(given) == ReliabilityPolicy.RELIABLE
+    override = 'qos_overrides./tensions.subscription.reliability:=reliable'
+    with listener.estimator('-p', override):
+        wait_for(
+            'the estimator that went to be forgotten',
+            lambda: len(listener.get_subscriptions_info_by_topic('/tensions')) == 1,
+        )
+        taken = listener.get_subscriptions_info_by_topic('/tensions')
+        assert reliability(taken) == ReliabilityPolicy.RELIABLE
+
+
+def test_every_name_can_be_remapped(listener):
+    arguments = ('-r', '__ns:=/left', '-r', 'tensions:=/tensions', '-r', '__node:=joint_1')
+    moved = (
+        f'{own}:=/estimator/{own[2:]}'
+        for own in ('~/regime', '~/bend_angle', '~/joint_pressure', '~/unit_pose', '~/estimate')
+    )
+    with listener.estimator(*arguments, *(part for rule in moved for part in ('-r', rule))):
+        assert listener.answer(*SLIPPING) == 'equilibrium'
+        assert ('joint_1', '/left') in listener.get_node_names_and_namespaces()

@@ -1,0 +1,58 @@
+"""Make again what the documentation takes from the program: tables and figures.
+
+A page holds ``<!-- made by: tendon-statics ... -->``; what that command prints stands between it
+and ``<!-- end -->``. Figures are files, listed here.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import shlex
+import sys
+from contextlib import redirect_stdout
+from pathlib import Path
+
+from tendon_statics.command_line.main import main as run
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGES = ('README.md', 'docs/model.md')
+FIGURES = {
+    'docs/residual.svg': 'plot residual',
+    'docs/unit.svg': 'plot unit',
+}
+
+_BLOCK = re.compile(r'(<!-- made by: tendon-statics (.+?) -->\n).*?(<!-- end -->)', re.DOTALL)
+
+
+def made(page: str) -> str:
+    """Return a page's text with all its blocks made anew."""
+
+    def make(block: re.Match[str]) -> str:
+        opening, arguments, closing = block.groups()
+        output = io.StringIO()
+        with redirect_stdout(output):
+            code = run(shlex.split(arguments))
+        if code != 0:
+            raise RuntimeError(f'{page}: tendon-statics {arguments} ended with {code}')
+        text = output.getvalue()
+        if not text.startswith('|'):
+            text = f'```text\n{text}```\n'
+        return f'{opening}\n{text}\n{closing}'
+
+    return _BLOCK.sub(make, page)
+
+
+def main() -> int:
+    """Rewrite the pages and figures."""
+    for name in PAGES:
+        path = ROOT / name
+        path.write_text(made(path.read_text(encoding='utf-8')), encoding='utf-8')
+    for name, arguments in FIGURES.items():
+        if run([*shlex.split(arguments), '--output', str(ROOT / name)]) != 0:
+            return 1
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

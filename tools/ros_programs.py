@@ -1,0 +1,258 @@
+"""The installed programs as processes, and a node that talks to the estimator."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any, TypeVar
+
+from ament_index_python.packages import get_package_prefix
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from rcl_interfaces.msg import Parameter, ParameterValue, SetParametersResult
+from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParametersAtomically
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import parameter_value_to_python
+from rclpy.qos import QoSProfile
+from std_msgs.msg import Float64, Float64MultiArray, String
+from std_srvs.srv import Trigger
+from tendon_statics_interfaces.msg import Estimate
+from tendon_statics_interfaces.srv import Solve
+
+TIME_LIMIT = 30.0
+"""Seconds to wait for anything; ten times what is expected."""
+
+
+def wait_for(what: str, condition: Callable[[], bool], time_limit: float = TIME_LIMIT) -> None:
+    """Wait until a condition holds."""
+    deadline = time.monotonic() + time_limit
+    while not condition():
+        if time.monotonic() > deadline:
+            raise TimeoutError(f'waited {time_limit:.0f} s for {what}')
+        time.sleep(0.002)
+
+
+# With the preliminary design.
+ANSWERED_ON_ALL_TOPICS = (1.0, 3.0)
+MIRRORED = (3.5, 1.0)
+ANSWERED_AS_HELD = (1.0, 1.5)
+
+
+class Program:
+    """A program of the package as a process of its own."""
+
+    def __init__(self, command: Sequence[str | Path]) -> None:
+        self._output = tempfile.TemporaryFile('w+')  # noqa: SIM115  closed in running_command
+        self.process = subprocess.Popen(command, stdout=self._output, stderr=subprocess.STDOUT)
+
+    def output(self) -> str:
+        """What it has written so far, on both streams."""
+        self._output.seek(0)
+        return self._output.read()
+
+    def end(self, number: int = signal.SIGINT, time_limit: float = TIME_LIMIT) -> int:
+        """Send a signal and return the exit code."""
+        self.process.send_signal(number)
+        return self.wait(time_limit)
+
+    def wait(self, time_limit: float = TIME_LIMIT) -> int:
+        """Return the exit code when it has ended."""
+        return self.process.wait(timeout=time_limit)
+
+    @classmethod
+    @contextmanager
+    def running(cls, name: str, *ros_arguments: str) -> Iterator[Program]:
+        """Run an installed program; it is ended on leaving if it has not been."""
+        path = Path(get_package_prefix('tendon_statics'), 'lib', 'tendon_statics', name)
+        with cls.running_command([path, *ros_arguments]) as program:
+            yield program
+
+    @classmethod
+    @contextmanager
+    def running_command(cls, command: Sequence[str | Path]) -> Iterator[Program]:
+        """Run any command in the same way."""
+        program = cls(command)
+        try:
+            yield program
+        finally:
+            if program.process.poll() is None:
+                # Politely, so that it says goodbye to the others of its domain.
+                program.process.send_signal(signal.SIGINT)
+                try:
+                    program.wait(time_limit=5.0)
+                except subprocess.TimeoutExpired:
+                    program.process.kill()
+                    program.wait()
+            program._output.close()
+
+
+NodeType = TypeVar('NodeType', bound=Node)
+
+
+@contextmanager
+def spinning(make_node: Callable[[Context], NodeType]) -> Iterator[NodeType]:
+    """Spin a node in a thread of its own, in a context of its own."""
+    context = Context()
+    context.init()
+    node = make_node(context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    thread = threading.Thread(target=executor.spin)
+    thread.start()
+    try:
+        yield node
+    finally:
+        executor.shutdown()
+        thread.join()
+        node.destroy_node()
+        context.try_shutdown()
+
+
+class Listener(Node):
+    """Keeps all that the estimator publishes, publishes tensions and calls its services."""
+
+    def __init__(self, context: Context) -> None:
+        super().__init__('listener', context=context)
+        self.regimes: list[str] = []
+        self.bend_angles: list[float] = []
+        self.joint_pressures: list[float] = []
+        self.unit_poses: list[PoseWithCovarianceStamped] = []
+        self.estimates: list[Estimate] = []
+        self.tensions = self.create_publisher(Float64MultiArray, 'tensions', 1000)
+        self._clients_by_name = {
+            name: self.create_client(service_type, f'estimator/{name}')
+            for name, service_type in (
+                ('solve', Solve),
+                ('solve_latest', Trigger),
+                ('get_parameters', GetParameters),
+                ('describe_parameters', DescribeParameters),
+                ('set_parameters_atomically', SetParametersAtomically),
+            )
+        }
+        self._stores = (
+            self._keep(String, 'regime', self.regimes, attribute='data'),
+            self._keep(Float64, 'bend_angle', self.bend_angles, attribute='data'),
+            self._keep(Float64, 'joint_pressure', self.joint_pressures, attribute='data'),
+            self._keep(PoseWithCovarianceStamped, 'unit_pose', self.unit_poses),
+            self._keep(Estimate, 'estimate', self.estimates),
+        )
+
+    def _keep(self, message_type: type, topic: str, store: list, attribute: str = '') -> list:
+        def keep(message: Any) -> None:
+            store.append(getattr(message, attribute) if attribute else message)
+
+        self.create_subscription(message_type, f'estimator/{topic}', keep, QoSProfile(depth=5000))
+        return store
+
+    @contextmanager
+    def estimator(self, *ros_arguments: str, greet: bool = True) -> Iterator[Program]:
+        """Run the installed estimator, connected with this node in both directions."""
+        arguments = ('--ros-args', *ros_arguments) if ros_arguments else ()
+        with Program.running('estimator', *arguments) as program:
+            self.connect(program, greet=greet)
+            yield program
+
+    def connect(self, program: Program, *, without: str = '', greet: bool = True) -> None:
+        """Wait until messages pass both ways on every topic but the one named.
+
+        That both ends are found is known on this side only, and the first messages may be lost
+        while the other side does not know yet. So the estimator is greeted with tensions that it
+        answers on all topics, until it has answered; what it said is then forgotten.
+        """
+        kept = {
+            subscription.topic_name: store
+            for subscription, store in zip(self.subscriptions, self._stores, strict=True)
+            if not (without and subscription.topic_name.endswith(without))
+        }
+
+        def found() -> bool:
+            assert program.process.poll() is None, program.output()
+            return self.tensions.get_subscription_count() > 0 and all(
+                subscription.get_publisher_count() > 0
+                for subscription in self.subscriptions
+                if subscription.topic_name in kept
+            )
+
+        wait_for('the estimator', found)
+        if not greet:
+            return
+        deadline = time.monotonic() + TIME_LIMIT
+        while not all(kept.values()):
+            assert time.monotonic() < deadline, f'no answer on all of {", ".join(kept)}'
+            self.publish(*ANSWERED_ON_ALL_TOPICS)
+            with suppress(TimeoutError):
+                wait_for('an answer', lambda: all(kept.values()), time_limit=0.5)
+        # Nothing is lost any more: these two are the last to be answered on their topics.
+        self.publish(*MIRRORED)
+        self.publish(*ANSWERED_AS_HELD)
+        wait_for('the last angle', lambda: self.bend_angles[-1] < 0.0)
+        wait_for('the last pressure', lambda: self.joint_pressures[-1] != self.joint_pressures[0])
+        wait_for('the last pose', lambda: self.unit_poses[-1].pose.pose.orientation.y < 0.0)
+        wait_for('the last regime', lambda: self.regimes[-1] == 'held')
+        if not without:
+            wait_for('the last estimate', lambda: self.estimates[-1].regime == 'held')
+        for store in self._stores:
+            store.clear()
+
+    def publish(self, *data: float) -> None:
+        """Publish one message of tensions."""
+        self.tensions.publish(Float64MultiArray(data=[float(value) for value in data]))
+
+    def answer(self, *data: float) -> str:
+        """Publish one message and wait until its regime, the first thing said of it, is here."""
+        before = len(self.regimes)
+        self.publish(*data)
+        wait_for(f'an answer to {data}', lambda: len(self.regimes) > before)
+        return self.regimes[before]
+
+    def call(self, name: str, request: Any) -> Any:
+        """Call a service of the estimator.
+
+        An answer may be lost while the estimator does not know this client yet, so the call is
+        repeated; none of the services counts its calls.
+        """
+        client = self._clients_by_name[name]
+        assert client.wait_for_service(TIME_LIMIT)
+        deadline = time.monotonic() + TIME_LIMIT
+        while True:
+            future = client.call_async(request)
+            try:
+                wait_for(f'an answer of {name}', future.done, time_limit=2.0)
+                return future.result()
+            except TimeoutError:
+                if time.monotonic() > deadline:
+                    raise
+
+    def solve(self, tension_l: float, tension_s: float) -> Solve.Response:
+        """Call ``~/solve``."""
+        return self.call('solve', Solve.Request(tension_l=tension_l, tension_s=tension_s))
+
+    def solve_latest(self) -> Trigger.Response:
+        """Call ``~/solve_latest``."""
+        return self.call('solve_latest', Trigger.Request())
+
+    def set_estimator_parameters(self, **values: ParameterValue) -> SetParametersResult:
+        """Set parameters of the estimator in one step; ``__`` stands for a dot."""
+        parameters = [
+            Parameter(name=name.replace('__', '.'), value=value) for name, value in values.items()
+        ]
+        request = SetParametersAtomically.Request(parameters=parameters)
+        return self.call('set_parameters_atomically', request).result
+
+    def estimator_parameter(self, name: str) -> Any:
+        """Return the value of a parameter of the estimator."""
+        request = GetParameters.Request(names=[name])
+        answer = self.call('get_parameters', request)
+        return parameter_value_to_python(answer.values[0])
+
+    def describe_estimator_parameters(self, *names: str) -> list:
+        """Return descriptors of parameters of the estimator."""
+        request = DescribeParameters.Request(names=list(names))
+        return self.call('describe_parameters', request).descriptors
