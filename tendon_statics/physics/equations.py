@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
 
 from .design import JointDesign
 
@@ -73,29 +72,3 @@ def residual(design: JointDesign, tension_l: float, tension_s: float, bend_angle
     """
     moment, force, _ = normal_force_ratios(design, tension_l, tension_s)(bend_angle)
     return (tension_l + tension_s) * (moment - force)
-
-
-class ContactCoefficients(NamedTuple):
-    """Integrals of a unit pressure and a unit shear over the contact arc, in m."""
-
-    pressure_x: float
-    """C_FX = C sin(β + θ)"""
-    pressure_z: float
-    """C_FZ = C cos(β + θ)"""
-    friction_x: float
-    """C_fX = C cos(β + θ)"""
-    friction_z: float
-    """C_fZ = C sin(β + θ)"""
-
-
-def contact_coefficients(design: JointDesign, bend_angle: float) -> ContactCoefficients:
-    """Contact coefficients of the paper's Eq. (4) at a bend angle in rad.
-
-    The contact zone turns with the unit and spans θ1 + θ to θ2 + θ.
-    """
-    phi = design.contact_centre_angle + bend_angle
-    sin_part = design.contact_length * math.sin(phi)
-    cos_part = design.contact_length * math.cos(phi)
-    return ContactCoefficients(
-        pressure_x=sin_part, pressure_z=cos_part, friction_x=cos_part, friction_z=sin_part
-    )

@@ -6,6 +6,8 @@ import math
 from enum import Enum
 from typing import Any, NamedTuple
 
+from .contact import ContactForces, ForceRemainder
+
 
 class Regime(str, Enum):
     """What a pair of tensions means for the unit; the values are used on every interface."""
@@ -13,7 +15,10 @@ class Regime(str, Enum):
     EQUILIBRIUM = 'equilibrium'
     """The unit is on the verge of slipping at one angle, which is given."""
     HELD = 'held'
-    """Friction can hold the unit at any angle; tensions alone do not determine it."""
+    """Friction can hold the unit: at any angle, which tensions alone then do not determine, or,
+    for a tracker, at the angle where it was."""
+    SLIPPING = 'slipping'
+    """The unit has slipped and friction holds it again, at its limit; only a tracker says so."""
     DRIVEN_TO_STOP = 'driven_to_stop'
     """Friction cannot hold the unit at any angle; it slides to its mechanical stop."""
     SLACK = 'slack'
@@ -21,32 +26,6 @@ class Regime(str, Enum):
 
     def __str__(self) -> str:
         return self.value
-
-
-class ContactForces(NamedTuple):
-    """Forces on the joint surface in the ground frame, in N; Eqs. (1) and (2)."""
-
-    pressure_x: float
-    """F_FX = p w C_FX, pressure-induced, along X_G"""
-    pressure_z: float
-    """F_FZ = p w C_FZ, pressure-induced, along Z_G"""
-    friction_x: float
-    """F_fX = μ p w C_fX, friction, along X_G"""
-    friction_z: float
-    """F_fZ = μ p w C_fZ, friction, along Z_G"""
-
-
-class ForceRemainder(NamedTuple):
-    """What Eqs. (1) and (2) leave over when they are not merged into Eq. (4), in N.
-
-    Zero would mean that both are met; the merge asks only for their squares to add up, so this is
-    the model's own error bar.
-    """
-
-    x: float
-    """(N − T) sin θ − F_fX"""
-    z: float
-    """(N − T) cos θ + F_fZ − W"""
 
 
 class TensionGradient(NamedTuple):
@@ -64,6 +43,22 @@ class TensionGradient(NamedTuple):
             Standard deviation of each tension in N, the two independent.
         """
         return tension_stddev * math.hypot(self.tension_l, self.tension_s)
+
+
+def stddev_of(gradient: TensionGradient | None, tension_stddev: float) -> float | None:
+    """Return `TensionGradient.stddev` where there is a gradient, else None."""
+    return None if gradient is None else gradient.stddev(tension_stddev)
+
+
+def plain_fields(result: Any) -> dict[str, Any]:
+    """Return the fields of a named tuple, ready for JSON: nested as dicts, enums as values."""
+    return {name: _plain(value) for name, value in result._asdict().items()}
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Enum):
+        return value.value
+    return value._asdict() if hasattr(value, '_asdict') else value
 
 
 class Equilibrium(NamedTuple):
@@ -102,27 +97,19 @@ class Equilibrium(NamedTuple):
     """∂p/∂T in Pa/N; None also where it is infinite"""
 
     def bend_angle_stddev(self, tension_stddev: float) -> float | None:
-        """Standard deviation of the angle in rad, to first order; None if not determined.
+        """Return the standard deviation of the angle in rad, to first order, None if not known.
 
         Parameters
         ----------
         tension_stddev : float
             Standard deviation of each tension in N, the two independent.
         """
-        gradient = self.bend_angle_gradient
-        return None if gradient is None else gradient.stddev(tension_stddev)
+        return stddev_of(self.bend_angle_gradient, tension_stddev)
 
     def pressure_stddev(self, tension_stddev: float) -> float | None:
-        """Standard deviation of the pressure in Pa, to first order; None if not determined."""
-        gradient = self.pressure_gradient
-        return None if gradient is None else gradient.stddev(tension_stddev)
+        """Return the standard deviation of the pressure in Pa in the same way."""
+        return stddev_of(self.pressure_gradient, tension_stddev)
 
     def as_dict(self) -> dict[str, Any]:
-        """The fields by name, ready for JSON: nested tuples as dicts, undetermined as None."""
-        return {name: _plain(value) for name, value in self._asdict().items()}
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Enum):
-        return value.value
-    return value._asdict() if hasattr(value, '_asdict') else value
+        """Return the fields by name, ready for JSON: nested as dicts, undetermined as None."""
+        return plain_fields(self)

@@ -19,3 +19,11 @@ class DesignError(ValueError):
 
 class TensionError(ValueError):
     """A pair of cable tensions that the model does not take."""
+
+
+class BendAngleError(ValueError):
+    """A bend angle that the unit cannot have."""
+
+
+class UnreachableError(ValueError):
+    """A bend angle and joint pressure that no pair of tensions gives."""

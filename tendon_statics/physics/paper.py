@@ -7,8 +7,8 @@ import math
 from collections.abc import Collection
 from enum import Enum
 
+from .contact import contact_coefficients
 from .design import JointDesign
-from .equations import contact_coefficients
 
 TENSION_L, TENSION_S = 1.0, 2.0
 """Published input, N"""

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import numbers
 
+from .contact import contact_at
 from .design import JointDesign
-from .equations import contact_coefficients, normal_force_ratios
-from .equilibrium import ContactForces, Equilibrium, ForceRemainder, Regime, TensionGradient
+from .equations import normal_force_ratios
+from .equilibrium import Equilibrium, Regime, TensionGradient
 from .errors import TensionError
 from .roots import SlipEquation
 
@@ -109,52 +110,16 @@ def _equilibrium_at(
 
     `slope` is ∂g/∂θ in N/rad; infinite where the angle does not follow the tensions.
     """
-    mirrored = tension_l > tension_s
-    side = -1.0 if mirrored else 1.0
+    side = -1.0 if tension_l > tension_s else 1.0
     total = tension_l + tension_s
-    weight, friction = design.weight, design.friction_coefficient
+    _, force_ratio, _ = normal_force_ratios(design, tension_l, tension_s)(bend_angle)
+    normal_force = total * force_ratio
+    friction_force = side * design.friction_coefficient * normal_force
 
-    weak, strong = sorted((tension_l, tension_s))
-    _, force_ratio, root_ratio = normal_force_ratios(design, weak, strong)(bend_angle)
-    normal_force, root = total * force_ratio, total * root_ratio
-    pressure = normal_force / design.contact_area
-
-    # Forces: the arc's coefficients times p w, friction with μ.
-    arc = contact_coefficients(design, bend_angle)
-    per_metre = pressure * design.contact_width
-    forces = ContactForces(
-        pressure_x=side * per_metre * arc.pressure_x,
-        pressure_z=per_metre * arc.pressure_z,
-        friction_x=side * friction * per_metre * arc.friction_x,
-        friction_z=friction * per_metre * arc.friction_z,
+    contact = contact_at(design, total, side * bend_angle, normal_force, friction_force)
+    angle_gradient, pressure_gradient = gradients_at_limit(
+        design, tension_l, tension_s, side * bend_angle, side, slope
     )
-    remainder = ForceRemainder(
-        x=side * (normal_force - total) * math.sin(bend_angle) - forces.friction_x,
-        z=(normal_force - total) * math.cos(bend_angle) + forces.friction_z - weight,
-    )
-
-    # Derivatives: θ from g(θ, T_l, T_s) = 0, then p from N_f(θ, T_l + T_s).
-    angle_gradient = pressure_gradient = None
-    if slope != 0.0 and root > 0.0:
-        lever = (design.ball_radius + design.cable_offset) / (friction * design.ball_radius)
-        by_total = (total - normal_force) / root
-        by_angle = (
-            friction
-            * weight
-            * normal_force
-            * math.cos(design.contact_centre_angle + bend_angle)
-            / root
-        )
-        angle_by_weak = (lever + by_total) / slope
-        angle_by_strong = -(lever - by_total) / slope
-        pressure_by_weak = (by_total + by_angle * angle_by_weak) / design.contact_area
-        pressure_by_strong = (by_total + by_angle * angle_by_strong) / design.contact_area
-        if mirrored:
-            angle_gradient = TensionGradient(-angle_by_strong, -angle_by_weak)
-            pressure_gradient = TensionGradient(pressure_by_strong, pressure_by_weak)
-        else:
-            angle_gradient = TensionGradient(angle_by_weak, angle_by_strong)
-            pressure_gradient = TensionGradient(pressure_by_weak, pressure_by_strong)
 
     return Equilibrium(
         regime=regime,
@@ -163,13 +128,53 @@ def _equilibrium_at(
         root_count=root_count,
         iterations=iterations,
         bend_angle=side * bend_angle,
-        pressure=pressure,
+        pressure=normal_force / design.contact_area,
         normal_force=normal_force,
         stable=stable,
         residual=residual,
-        forces=forces,
-        force_remainder=remainder,
-        branch_consistent=forces.friction_z > weight,
+        forces=contact.forces,
+        force_remainder=contact.remainder,
+        branch_consistent=contact.branch_consistent,
         bend_angle_gradient=angle_gradient,
         pressure_gradient=pressure_gradient,
     )
+
+
+def gradients_at_limit(
+    design: JointDesign,
+    tension_l: float,
+    tension_s: float,
+    bend_angle: float,
+    side: float,
+    slope: float,
+) -> tuple[TensionGradient | None, TensionGradient | None]:
+    """Derivatives of angle and pressure of a unit about to slip; None where they are infinite.
+
+    θ from g(θ, T_l, T_s) = 0, then p from N_f(θ, T_l + T_s).
+
+    Parameters
+    ----------
+    bend_angle : float
+        Angle θ in rad.
+    side : float
+        1 for slipping towards cable s, −1 for cable l.
+    slope : float
+        ∂g/∂θ on that side in N/rad; infinite for an angle that does not follow the tensions.
+    """
+    friction = design.friction_coefficient
+    total = tension_l + tension_s
+    angle = side * bend_angle
+    _, force_ratio, root_ratio = normal_force_ratios(design, tension_l, tension_s)(angle)
+    if slope == 0.0 or root_ratio == 0.0:
+        return None, None
+    normal_force, root = total * force_ratio, total * root_ratio
+    lever = (design.ball_radius + design.cable_offset) / (friction * design.ball_radius)
+    by_total = (total - normal_force) / root
+    cos_phi = math.cos(design.contact_centre_angle + angle)
+    by_angle = friction * design.weight * normal_force * cos_phi / root
+    # By the tension of the cable towards which it slips, and by that of the other.
+    angle_by_near, angle_by_far = (by_total - lever) / slope, (by_total + lever) / slope
+    near = (side * angle_by_near, (by_total + by_angle * angle_by_near) / design.contact_area)
+    far = (side * angle_by_far, (by_total + by_angle * angle_by_far) / design.contact_area)
+    by_l, by_s = (far, near) if side > 0.0 else (near, far)
+    return TensionGradient(by_l[0], by_s[0]), TensionGradient(by_l[1], by_s[1])

@@ -1,0 +1,109 @@
+"""From a bend angle and a joint pressure, or a total tension, back to the cable tensions."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from .admissible import check_bend_angle
+from .design import JointDesign
+from .equations import normal_force_ratios
+from .errors import TensionError, UnreachableError
+from .solver import solve
+
+ROUND_TRIP_TOLERANCE = 1e-9
+"""How far, in rad, `solve` may end from the angle that was asked for."""
+
+
+class Tensions(NamedTuple):
+    """A pair of cable tensions in N."""
+
+    tension_l: float
+    tension_s: float
+
+
+def tensions_for(
+    design: JointDesign,
+    bend_angle: float,
+    *,
+    pressure: float | None = None,
+    total_tension: float | None = None,
+) -> Tensions:
+    """Return the tensions at which the unit is about to slip at a given angle.
+
+    Eqs. (1) to (3) solved for the tensions, in closed form. `solve` of the result gives the
+    angle back, to 1e-9 rad.
+
+    Parameters
+    ----------
+    bend_angle : float
+        Angle θ in rad; its sign is the side to which the unit is about to slip, + for 0.
+    pressure : float, optional
+        Mean joint pressure p in Pa.
+    total_tension : float, optional
+        T_l + T_s in N. Just one of the two is given.
+
+    Raises
+    ------
+    UnreachableError
+        If no pair of tensions does it, with the reason: a cable would have to push, the pressure
+        is not positive, the total does not exceed the weight, or `solve` would answer otherwise.
+    BendAngleError
+        If the angle is not a number or lies beyond the stop.
+    TypeError
+        If not just one of pressure and total tension is given.
+    """
+    if (pressure is None) == (total_tension is None):
+        raise TypeError('give either pressure or total_tension')
+    bend_angle = check_bend_angle(design, bend_angle)
+    # Just inside the range, so that rounding does not put the root beyond its end.
+    inset = 0.5 * ROUND_TRIP_TOLERANCE
+    angle = min(max(abs(bend_angle), inset), design.max_bend_angle - inset)
+    friction, weight, r = design.friction_coefficient, design.weight, design.ball_radius
+    if pressure is not None:
+        if not 0.0 < pressure < math.inf:
+            raise UnreachableError(f'pressure is {pressure!r} Pa, which must be above 0 Pa')
+        normal_force = pressure * design.contact_area
+        limit = friction * normal_force
+        phi = design.contact_centre_angle + angle
+        total = normal_force + math.hypot(limit * math.cos(phi), limit * math.sin(phi) - weight)
+    else:
+        assert total_tension is not None
+        total = total_tension
+        if not weight < total < math.inf:
+            raise UnreachableError(
+                f'total_tension is {total_tension!r} N, '
+                f"which must exceed the unit's weight of {weight:.6g} N"
+            )
+        _, force_ratio, _ = normal_force_ratios(design, 0.5 * total, 0.5 * total)(angle)
+        normal_force = total * force_ratio
+    moment = friction * r * normal_force - weight * design.com_distance * math.sin(angle)
+    difference = moment / (r + design.cable_offset)
+    weak, strong = 0.5 * (total - difference), 0.5 * (total + difference)
+    tensions = Tensions(strong, weak) if bend_angle < 0.0 else Tensions(weak, strong)
+    if min(tensions) <= 0.0:
+        cable = 'l' if tensions.tension_l <= 0.0 else 's'
+        raise UnreachableError(
+            f'cable {cable} would have to push: it would need {min(tensions):.6g} N at '
+            f'{bend_angle:.6g} rad'
+        )
+    _check_round_trip(design, tensions, bend_angle)
+    return tensions
+
+
+def _check_round_trip(design: JointDesign, tensions: Tensions, bend_angle: float) -> None:
+    """Refuse tensions that `solve` takes for something else."""
+    asked = (
+        f'the unit is about to slip at {bend_angle:.6g} rad with {tensions.tension_l:.6g} N and '
+        f'{tensions.tension_s:.6g} N, but solve would not say so'
+    )
+    try:
+        answer = solve(design, *tensions)
+    except TensionError as error:
+        raise UnreachableError(str(error)) from None
+    if answer.bend_angle is None:
+        raise UnreachableError(
+            f'{asked}: its weight, not the stronger cable, drives it ({answer.regime})'
+        )
+    if not abs(answer.bend_angle - bend_angle) <= ROUND_TRIP_TOLERANCE:
+        raise UnreachableError(f'{asked}: it also is at {answer.bend_angle:.6g} rad')

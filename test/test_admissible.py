@@ -1,0 +1,121 @@
+"""`admissible_angles` and `slip_margin` against a brute-force oracle and each other."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from designs import PRELIMINARY, cases
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from tendon_statics import JointDesign, Regime, TensionError, solve
+from tendon_statics.physics import BendAngleError, admissible_angles, slip_margin
+
+GRID = 801
+
+
+def oracle(design: JointDesign, tension_l: float, tension_s: float, bend_angle: float) -> float:
+    """How far friction is from its limit at an angle, in N m; below 0 it cannot hold.
+
+    From Eqs. (1) to (3) as they stand: the moment, and the smallest contact force at which the
+    squared force equations have friction at its limit, from the roots of the quadratic.
+    """
+    mu, r, weight = design.friction_coefficient, design.ball_radius, design.mass * design.gravity
+    total = tension_l + tension_s
+    moment = (tension_s - tension_l) * (r + design.cable_offset)
+    moment += weight * design.com_distance * math.sin(bend_angle)
+    beta = (design.contact_start_angle + design.contact_end_angle) / 2.0
+    phi = beta + bend_angle if moment >= 0.0 else beta - bend_angle
+    roots = np.roots(
+        [1.0 - mu * mu, -2.0 * (total - mu * weight * math.sin(phi)), total**2 - weight**2]
+    )
+    normal = min(root.real for root in roots if root.real > 0.0)
+    return mu * r * normal - abs(moment)
+
+
+@given(cases())
+@settings(max_examples=150, deadline=None)
+def test_the_intervals_are_those_of_the_oracle(case):
+    design, tension_l, tension_s = case
+    assume(abs(design.friction_coefficient - 1.0) > 1e-3)
+    intervals = admissible_angles(design, tension_l, tension_s)
+    stop = design.max_bend_angle
+    assert all(-stop <= low <= high <= stop for low, high in intervals)
+    assert all(a[1] < b[0] for a, b in pairwise(intervals))
+    scale = design.ball_radius * (tension_l + tension_s)
+    for index in range(GRID):
+        angle = stop * (2.0 * index / (GRID - 1) - 1.0)
+        room = oracle(design, tension_l, tension_s, angle)
+        if abs(room) > 1e-9 * scale:
+            assert any(low <= angle <= high for low, high in intervals) == (room > 0.0), angle
+    # Within the range an end is where friction is at its limit.
+    for end in (end for interval in intervals for end in interval if abs(end) < stop):
+        assert abs(oracle(design, tension_l, tension_s, end)) < 1e-9 * scale
+
+
+@given(cases(), st.floats(-1.0, 1.0))
+@settings(max_examples=300)
+def test_the_margin_is_within_one_just_where_the_angle_is_admissible(case, share):
+    design, tension_l, tension_s = case
+    angle = share * design.max_bend_angle
+    margin = slip_margin(design, tension_l, tension_s, angle)
+    assume(abs(abs(margin) - 1.0) > 1e-12)
+    intervals = admissible_angles(design, tension_l, tension_s)
+    assert any(low <= angle <= high for low, high in intervals) == (abs(margin) < 1.0)
+
+
+@given(cases())
+@settings(max_examples=300)
+def test_every_root_is_an_end_and_has_margin_one(case):
+    design, tension_l, tension_s = case
+    equilibrium = solve(design, tension_l, tension_s)
+    intervals = admissible_angles(design, tension_l, tension_s)
+    if equilibrium.regime is Regime.EQUILIBRIUM:
+        ends = [end for interval in intervals for end in interval]
+        assert equilibrium.bend_angle in ends
+        margin = slip_margin(design, tension_l, tension_s, equilibrium.bend_angle)
+        assert abs(margin) == pytest.approx(1.0, abs=1e-9)
+    elif equilibrium.regime is Regime.DRIVEN_TO_STOP:
+        margin = slip_margin(design, tension_l, tension_s, equilibrium.bend_angle)
+        assert abs(margin) > 1.0
+        assert math.copysign(1.0, margin) == math.copysign(1.0, equilibrium.bend_angle)
+
+
+@given(cases(), st.floats(-1.0, 1.0))
+def test_mirrored_tensions_give_mirrored_intervals_and_margins(case, share):
+    design, tension_l, tension_s = case
+    one = admissible_angles(design, tension_l, tension_s)
+    other = admissible_angles(design, tension_s, tension_l)
+    assert other == [(-high, -low) for low, high in reversed(one)]
+    angle = share * design.max_bend_angle
+    assert slip_margin(design, tension_l, tension_s, angle) == -slip_margin(
+        design, tension_s, tension_l, -angle
+    )
+
+
+def test_the_published_case():
+    (interval,) = admissible_angles(PRELIMINARY, 1.0, 2.0)
+    assert [math.degrees(end) for end in interval] == pytest.approx([-30.0, 17.14], abs=1e-5)
+
+
+def test_equal_tensions_ask_nothing_of_friction_at_zero():
+    assert slip_margin(PRELIMINARY, 1.0, 1.0, 0.0) == 0.0
+
+
+def test_there_may_be_no_angle_at_all():
+    assert admissible_angles(PRELIMINARY, 1.0, 3.0) == []
+
+
+@pytest.mark.parametrize('tensions', [(0.0, 2.0), (1.0, 0.0), (math.nan, 1.0), (0.05, 0.1)])
+def test_tensions_outside_the_model_are_refused(tensions):
+    with pytest.raises(TensionError):
+        admissible_angles(PRELIMINARY, *tensions)
+    with pytest.raises(TensionError):
+        slip_margin(PRELIMINARY, *tensions, 0.0)
+
+
+@pytest.mark.parametrize('angle', [math.nan, 0.6, -0.6, math.inf, 'left', None])
+def test_an_angle_beyond_the_stop_is_refused(angle):
+    with pytest.raises(BendAngleError, match=r'allowed is -0\.523599 to 0\.523599'):
+        slip_margin(PRELIMINARY, 1.0, 2.0, angle)
