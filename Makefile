@@ -1,4 +1,5 @@
 # `make help` lists the targets. What they need is made once, in .venv/ and install/.
+# Variables: PYTHON=/path/to/python3 for the set-up, ARGS='...' for pytest.
 SHELL := bash
 .DEFAULT_GOAL := help
 
@@ -7,11 +8,13 @@ PYTHON ?=
 run := set -euo pipefail; . tools/env.bash;
 
 sources := package.xml setup.py setup.cfg colcon.pkg colcon_defaults.yaml resource \
+  tendon_statics $(shell find tendon_statics config launch resource interfaces -type d -not -name __pycache__) \
   $(shell find tendon_statics config launch resource interfaces -type f \
     -not -path '*/__pycache__/*' -not -name '*.swp')
 
 .PHONY: help
 help: ## List the targets
+	@echo 'Targets (PYTHON=/path/to/python3 chooses the Python of the set-up):'
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /  make \1\t/' | expand -t 16
 
 .PHONY: setup
@@ -23,7 +26,7 @@ demo: setup ## Drive the estimator node over real ROS 2 and print what it publis
 
 .PHONY: test
 test: setup ## Run all tests (choose with ARGS, say ARGS='-k node')
-	@$(run) python -m pytest $(ARGS)
+	@$(run) pytest $(ARGS)
 
 .PHONY: lint
 lint: .venv/.complete ## Check style and types
@@ -35,7 +38,7 @@ docs: setup ## Make again the tables and figures of docs/
 
 .PHONY: clean
 clean: ## Remove all that the targets made
-	rm -rf .venv build install log
+	rm -rf .venv build install log .hypothesis .mypy_cache .pytest_cache .ruff_cache
 
 .venv/.complete: tools/make_venv.bash tools/mend_wheel_cmake.py tools/requirements.txt \
   tools/requirements-ros.txt

@@ -17,10 +17,10 @@ setup(
         (f'{share}/launch', glob('launch/*.launch.py')),
         (f'{share}/hook', ['resource/path.dsv']),
     ],
-    install_requires=['setuptools', 'numpy>=1.26.4', 'PyYAML'],
+    install_requires=['setuptools', 'PyYAML'],
     extras_require={
         'plot': ['matplotlib'],
-        'test': ['hypothesis', 'mpmath', 'pytest', 'scipy>=1.11.4'],
+        'test': ['hypothesis', 'mpmath', 'numpy>=1.26.4', 'pytest', 'scipy>=1.11.4'],
     },
     zip_safe=False,
     maintainer='tendon_statics maintainers',
@@ -30,8 +30,8 @@ setup(
     python_requires='>=3.10',
     entry_points={
         'console_scripts': [
-            'estimator = tendon_statics.node.estimator:main',
-            'pulley_driver = tendon_statics.node.pulley_driver:main',
+            'estimator = tendon_statics.node.program:estimator',
+            'pulley_driver = tendon_statics.node.program:pulley_driver',
             'tendon-statics = tendon_statics.command_line.main:main',
         ],
     },

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from .installed_files import installed_config
 from .physics.design import JointDesign
@@ -56,38 +56,68 @@ def _read_yaml(path: Path) -> object:
     import yaml  # Here, so that the physics can be used where PyYAML is not installed.
 
     class Loader(yaml.SafeLoader):
-        """SafeLoader that reads 1e-3 as ROS does and refuses a key given twice."""
+        """SafeLoader that reads numbers as ROS does and refuses a key given twice."""
+
+        yaml_implicit_resolvers: ClassVar = {
+            first: [(tag, pattern) for tag, pattern in resolvers if tag not in _YAML_1_1_TAGS]
+            for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
+        }
 
         def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-            keys = [key.value for key, _ in node.value if key.tag != 'tag:yaml.org,2002:merge']
-            for key in keys:
-                if keys.count(key) > 1:
-                    raise DesignError(f'{key} is given twice, line {node.start_mark.line + 1} on')
+            seen = set()
+            for key, _ in node.value:
+                if key.value in seen:
+                    line = key.start_mark.line + 1
+                    raise DesignError(f'{key.value} is given a second time in line {line}')
+                if isinstance(key, yaml.ScalarNode):
+                    seen.add(key.value)
             return super().construct_mapping(node, deep)
 
-    # YAML 1.1, PyYAML's, takes a number without a point for text: 1e-3.
-    Loader.add_implicit_resolver(
-        'tag:yaml.org,2002:float', re.compile(r'^[-+]?\d+[eE][-+]?\d+$'), list('-+0123456789')
-    )
+        def construct_number(self, node: yaml.ScalarNode) -> float:
+            text = self.construct_scalar(node).lower()
+            return float(text.replace('.inf', 'inf').replace('.nan', 'nan'))
+
+    Loader.add_implicit_resolver(_NUMBER_TAG, _NUMBER, list('-+.0123456789'))
+    Loader.add_constructor(_NUMBER_TAG, Loader.construct_number)
     try:
-        return yaml.load(path.read_text(encoding='utf-8'), Loader)
+        text = path.read_text(encoding='utf-8')
     except OSError as error:
         raise DesignError(f'it cannot be read: {error.strerror}') from None
     except UnicodeDecodeError:
         raise DesignError('it is not a text file in UTF-8') from None
-    except yaml.YAMLError as error:
+    try:
+        return yaml.load(text, Loader)
+    except DesignError:
+        raise
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        place = f' in line {mark.line + 1}' if mark else ''
+        raise DesignError(f'it is not valid YAML{place}: {error.problem}') from None
+    except Exception as error:
+        # PyYAML lets through whatever its constructors raise at odd content.
         raise DesignError(f'it is not valid YAML: {" ".join(str(error).split())}') from None
+
+
+# PyYAML's numbers and times are those of YAML 1.1: 1e-3 is text, 1_0 is 10, 1:30 is 90, 010 is 8.
+_YAML_1_1_TAGS = {f'tag:yaml.org,2002:{name}' for name in ('float', 'int', 'timestamp')}
+_NUMBER_TAG = 'tag:yaml.org,2002:float'
+_NUMBER = re.compile(
+    r'^[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?$|^[-+]?\.(?:inf|Inf|INF)$'
+    r'|^\.(?:nan|NaN|NAN)$'
+)
 
 
 def _designs(content: object) -> dict[str, dict[str, object]]:
     """Node name → the design given for it, for every node that has one."""
     found = {}
     for name, parameters in _parameter_blocks(content):
-        design = {
-            key[len(_PREFIX) :]: value
-            for key, value in _flatten(parameters)
-            if key.startswith(_PREFIX)
-        }
+        design: dict[str, object] = {}
+        for key, value in _flatten(parameters):
+            name_in_design = key.removeprefix(_PREFIX)
+            if name_in_design in design:
+                raise DesignError(f'{key} is given twice')
+            if key.startswith(_PREFIX):
+                design[name_in_design] = value
         if design:
             found[name] = design
     return found

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from pathlib import Path
+from typing import NamedTuple
 
 COLUMNS = ('tension_l', 'tension_s')
 
@@ -12,11 +13,23 @@ class TensionFileError(ValueError):
     """A file that holds no recorded tensions."""
 
 
-def load_tensions(path: str | Path) -> list[tuple[float, float]]:
-    """Read pairs of tensions in N from a CSV file with a header.
+class Sample(NamedTuple):
+    """One row of a recording."""
 
-    The columns are ``tension_l`` and ``tension_s``; others are left alone, and so are empty lines
-    and lines that begin with ``#``. Values need not be valid tensions: a recording may hold NaN.
+    tension_l: float
+    """N"""
+    tension_s: float
+    """N"""
+    time: float | None = None
+    """s; None if the recording has no times"""
+
+
+def load_tensions(path: str | Path) -> list[Sample]:
+    """Read recorded tensions from a CSV file with a header.
+
+    The columns are ``tension_l`` and ``tension_s`` in N and, if there are times, ``time`` in s;
+    others are left alone, and so are empty lines and lines that begin with ``#``. Values need not
+    be valid tensions: a recording may hold NaN.
 
     Raises
     ------
@@ -42,20 +55,20 @@ def load_tensions(path: str | Path) -> list[tuple[float, float]]:
                 f'{path}: there is no column {column}; the first line names the columns, '
                 f'{",".join(COLUMNS)}'
             )
-    places = [header.index(column) for column in COLUMNS]
-    pairs = []
+    columns = [*COLUMNS, 'time'] if 'time' in header else list(COLUMNS)
+    places = [header.index(column) for column in columns]
+    samples = []
     for number, line in numbered[1:]:
         row = _fields(line)
         try:
-            tension_l, tension_s = (float(row[place]) for place in places)
+            samples.append(Sample(*(float(row[place]) for place in places)))
         except (ValueError, IndexError):
             raise TensionFileError(
-                f'{path}, line {number}: {line!r} is not a number in each of {", ".join(COLUMNS)}'
+                f'{path}, line {number}: {line!r} is not a number in each of {", ".join(columns)}'
             ) from None
-        pairs.append((tension_l, tension_s))
-    if not pairs:
+    if not samples:
         raise TensionFileError(f'{path}: there is no row of tensions in it')
-    return pairs
+    return samples
 
 
 def _fields(line: str) -> list[str]:

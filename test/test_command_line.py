@@ -1,17 +1,21 @@
 """``tendon-statics`` as a program: output, exit codes, one-line errors."""
 
+import csv
 import json
 import math
 import subprocess
 import sys
 from dataclasses import asdict
+from pathlib import Path
 
 import pytest
+from ament_index_python.packages import get_package_prefix
 from designs import PRELIMINARY
 
 from tendon_statics import Equilibrium, default_design_path, solve
+from tendon_statics.physics import admissible_angles
 
-PROGRAM = [sys.executable, '-m', 'tendon_statics.command_line.main']
+PROGRAM = [f'{get_package_prefix("tendon_statics")}/lib/tendon_statics/tendon-statics']
 CASE = ['solve', '--tension-l', '1', '--tension-s', '2']
 
 
@@ -76,7 +80,13 @@ def test_a_design_file_is_used(tmp_path):
         (['plot', 'residual', '--output', 'figure.doc'], 'figure.doc'),
         (['plot', 'residual', '--output', '/no/such/folder/figure.svg'], 'cannot be written'),
         (['plot'], 'FIGURE'),
+        (['plot', 'residual', '--tension-l', '0', '--output', 'figure.svg'], 'slack'),
         (['paper', '--section', 'none'], 'none'),
+        (['track', 'missing.csv'], 'missing.csv'),
+        (['invert', '--bend-angle', '0.1'], '--total-tension'),
+        (['invert', '--bend-angle', '3', '--pressure', '400'], 'bend_angle is 3.0'),
+        (['invert', '--bend-angle', '0.1', '--pressure', '-4'], 'pressure is -4.0'),
+        (['admissible', '--tension-l', '0', '--tension-s', '1'], 'slack'),
     ],
 )
 def test_an_error_is_one_line_and_exit_code_2(arguments, named):
@@ -88,10 +98,54 @@ def test_an_error_is_one_line_and_exit_code_2(arguments, named):
     assert named in done.stderr
 
 
+def test_admissible_prints_the_intervals():
+    tensions = ('admissible', '--tension-l', '1', '--tension-s')
+    assert '-30.0000 deg to +17.1400 deg' in run(*tensions, '2').stdout
+    assert 'none' in run(*tensions, '3').stdout
+    answer = json.loads(run(*tensions, '2', '--format', 'json').stdout)
+    assert [tuple(pair) for pair in answer['admissible_angles']] == admissible_angles(
+        PRELIMINARY, 1.0, 2.0
+    )
+    assert run(*tensions, '0').returncode == 2
+
+
+@pytest.mark.parametrize(
+    'load', [('--pressure', '405.6'), ('--total-tension', '3')], ids=lambda load: load[0]
+)
+def test_invert_gives_the_tensions_back(load):
+    done = run('invert', '--bend-angle-deg', '17.14', *load, '--format', 'json')
+    assert list(json.loads(done.stdout).values()) == pytest.approx([1.0, 2.0], abs=1e-8)
+    assert '1.000000' in run('invert', '--bend-angle-deg', '17.14', *load).stdout
+
+
+def test_track_follows_a_file_with_memory(tmp_path):
+    path = tmp_path / 'run.csv'
+    rows = ['0.0,1.0,1.5', '0.1,1.0,3.0', '0.2,nan,3.0', '0.3,1.0,1.5', '0.4,0.0,1.5', '0.5,1,1.5']
+    path.write_text('time,tension_l,tension_s\n' + '\n'.join(rows) + '\n')
+    done = run('track', str(path), '--initial-bend-angle', '0.1')
+    assert done.stderr == ''
+    table = list(csv.DictReader(done.stdout.splitlines()))
+    stop = str(PRELIMINARY.max_bend_angle)
+    assert [row['bend_angle'] for row in table] == ['0.1', stop, '', stop, '', stop]
+    assert [row['regime'] for row in table] == [
+        *('held', 'driven_to_stop', 'invalid', 'held', 'slack', 'held')
+    ]
+    assert [row['time'] for row in table] == ['0.0', '0.1', '0.2', '0.3', '0.4', '0.5']
+    assert [row['angle_assured'] for row in table] == [
+        'True',
+        'True',
+        '',
+        'True',
+        'False',
+        'False',
+    ]
+    assert -1.0 < float(table[0]['slip_margin']) < 1.0 < float(table[1]['slip_margin'])
+
+
 def test_help_names_every_verb():
     done = run('--help')
     assert done.returncode == 0
-    for verb in ('solve', 'design', 'paper', 'plot'):
+    for verb in ('solve', 'admissible', 'track', 'invert', 'design', 'paper', 'plot'):
         assert verb in done.stdout
         assert run(verb, '--help').returncode == 0
 
@@ -103,11 +157,17 @@ def test_design_shows_every_value():
         assert f'{value:.7g}' in shown
 
 
-@pytest.mark.parametrize('ending', ['svg', 'png', 'pdf'])
-def test_a_figure_is_written_the_same_each_time(tmp_path, ending):
+@pytest.mark.parametrize(
+    ('figure', 'ending'),
+    [
+        *(('residual', ending) for ending in ('svg', 'png', 'pdf')),
+        *((figure, 'svg') for figure in ('unit', 'hysteresis')),
+    ],
+)
+def test_a_figure_is_written_the_same_each_time(tmp_path, figure, ending):
     files = [tmp_path / f'{i}.{ending}' for i in range(2)]
     for file in files:
-        assert run('plot', 'residual', '--output', str(file)).returncode == 0
+        assert run('plot', figure, '--output', str(file)).returncode == 0
         assert file.stat().st_size > 2000
     if ending == 'svg':
         assert files[0].read_bytes() == files[1].read_bytes()
@@ -123,6 +183,20 @@ def test_a_reader_that_stops_reading_is_no_error():
     )
     assert done.stdout.splitlines()[-1] == '0'
     assert done.stderr == ''
+
+
+def test_an_output_that_cannot_be_written_is_an_error_in_one_line():
+    with Path('/dev/full').open('w') as full:
+        done = subprocess.run(
+            [*PROGRAM, *CASE], stdout=full, stderr=subprocess.PIPE, text=True, check=False
+        )
+    assert done.returncode == 2
+    assert done.stderr.count('\n') == 1
+    assert 'No space left' in done.stderr
+
+
+def test_the_version_is_the_packages():
+    assert run('--version').stdout.startswith('tendon-statics 0.')
 
 
 def test_the_physics_needs_neither_ros_nor_files_nor_the_command_line():
@@ -141,8 +215,6 @@ def test_the_physics_needs_neither_ros_nor_files_nor_the_command_line():
     ('room', 'others'), [('node', ['command_line']), ('command_line', ['node', 'rclpy'])]
 )
 def test_node_and_command_line_do_not_import_each_other(room, others):
-    from pathlib import Path
-
     import tendon_statics
 
     for path in Path(tendon_statics.__file__).parent.joinpath(room).rglob('*.py'):

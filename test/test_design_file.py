@@ -44,7 +44,17 @@ def test_every_value_of_the_file_has_its_unit_beside_it():
 
 @pytest.mark.parametrize(
     ('value', 'number'),
-    [('1', 1.0), ('1e-2', 0.01), ('2E-2', 0.02), ('1.5e-2', 0.015), ('+1e-2', 0.01)],
+    [
+        ('1', 1.0),
+        ('010', 10.0),
+        ('.5e1', 5.0),
+        ('1.', 1.0),
+        ('1.5e1', 15.0),
+        ('1e-2', 0.01),
+        ('2E-2', 0.02),
+        ('1.5e-2', 0.015),
+        ('+1e-2', 0.01),
+    ],
 )
 def test_numbers_are_read_as_ros_reads_them(tmp_path, value, number):
     assert load_design(write(tmp_path, changed('mass', value))).mass == number
@@ -83,7 +93,16 @@ def test_the_forms_that_ros_takes(tmp_path, text):
         (changed('contact_end_angle', '0.1'), ['design.contact_end_angle', 'exceed the start']),
         (changed('contact_end_angle', '88.49'), ['88.49', 'radians']),
         (changed('mass', '1.0\n      masss: 2.0'), ['design.masss is 2.0', 'no such']),
-        (changed('mass', '1.0\n      mass: 2.0'), ['mass is given twice']),
+        (changed('mass', '1.0\n      mass: 2.0'), ['mass is given a second time in line']),
+        (TEXT + '    design.mass: 2.0\n', ['design.mass is given twice']),
+        (changed('mass', '1_0.0'), ["design.mass is '1_0.0'", 'not a number']),
+        (changed('mass', '1:30'), ["design.mass is '1:30'", 'not a number']),
+        (changed('mass', '2024-13-45'), ["design.mass is '2024-13-45'", 'not a number']),
+        (changed('mass', '!!int foo'), ['not valid YAML']),
+        (changed('mass', '!!timestamp foo'), ['not valid YAML']),
+        (changed('mass', '9' * 6000), ['design.mass is inf']),
+        ('a: &a [*a]', ['no design in it']),
+        ('a: ' + '[' * 3000 + ']' * 3000, ['not valid YAML']),
         (changed('mass', '{a: 1}'), ['design.mass.a', 'no such']),
         ('\n'.join(x for x in TEXT.splitlines() if ' mass:' not in x), ['design.mass is missing']),
         (TEXT + TEXT.replace('/**:', '/b:'), ['/**, /b', 'keep one']),

@@ -30,10 +30,12 @@ def test_figures_are_shown_somewhere(figure):
 
 def test_the_readme_names_everything_the_node_has():
     """Asked of the running node: its topics, services and parameters."""
-    from ros_programs import Listener, spinning
+    from ros_programs import Listener, spinning, wait_for
 
-    with spinning(Listener) as listener, listener.estimator():
+    with spinning(Listener) as listener, listener.estimator('-p', 'estimation:=tracking'):
         own = '/estimator/'
+        # Names of nodes are found out later than their topics.
+        wait_for('the name', lambda: 'estimator' in listener.get_node_names())
         published = listener.get_publisher_names_and_types_by_node('estimator', '/')
         served = listener.get_service_names_and_types_by_node('estimator', '/')
     parameter_services = ('parameter', 'type_description')
@@ -41,5 +43,8 @@ def test_the_readme_names_everything_the_node_has():
     for name in names:
         if not any(part in name for part in parameter_services):
             assert f'`~/{name.removeprefix(own)}`' in README, name
-    for parameter in ('tension_stddev', 'frame_id', 'qos_overrides'):
+    assert '`measured_bend_angle`' in README
+    for parameter in (
+        *('tension_stddev', 'frame_id', 'qos_overrides', 'estimation', 'initial_bend_angle'),
+    ):
         assert f'`{parameter}' in README

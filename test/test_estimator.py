@@ -6,17 +6,28 @@ import signal
 import sys
 import threading
 
+import numpy as np
 import pytest
 from designs import PRELIMINARY
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from rclpy.qos import ReliabilityPolicy
 from ros_programs import Program, wait_for
+from std_msgs.msg import Float64
 from tendon_statics_interfaces.msg import Estimate
 
 from tendon_statics import Regime, default_design_path, load_design, solve
-from tendon_statics.physics import design_parameters
+from tendon_statics.physics import (
+    StickSlipTracker,
+    admissible_angles,
+    design_parameters,
+    slip_margin,
+)
 
 HELD, SLIPPING, STOP, SLACK = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0), (0.0, 2.0)
+TOPICS = (
+    *('regime', 'bend_angle', 'joint_pressure', 'unit_pose', 'slip_margin'),
+    *('admissible_angles', 'estimate'),
+)
 MALFORMED = [
     (),
     (1.0,),
@@ -114,7 +125,8 @@ def test_numbers_go_out_only_where_the_model_determines_them(listener):
 
 
 def test_the_regimes_of_the_message_are_those_of_the_physics():
-    constants = {Estimate.EQUILIBRIUM, Estimate.HELD, Estimate.DRIVEN_TO_STOP, Estimate.SLACK}
+    names = ('EQUILIBRIUM', 'HELD', 'SLIPPING', 'DRIVEN_TO_STOP', 'SLACK')
+    constants = {getattr(Estimate, name) for name in names}
     assert constants == {regime.value for regime in Regime}
 
 
@@ -314,17 +326,23 @@ def test_a_part_of_a_design_is_completed_with_a_warning(listener):
         ('design.mass:=heavy', "design.mass is 'heavy', which is not a number"),
         ('design.masss:=1.0', 'design.masss is 1.0, but there is no such design parameter'),
         ('design.contact_end_angle:=0.1', 'the end must exceed the start'),
+        ('design:=3', 'its parameters have names'),
+        ('qos_overrides./tensions.subscription.reliability:=foo', 'QoS'),
         ('tension_stddev:=-1.0', 'tension_stddev'),
         ('tension_stddev:=lots', 'tension_stddev'),
         ('frame_id:=1', 'frame_id'),
+        ('estimation:=guessing', "estimation is 'guessing', allowed is equilibrium or tracking"),
+        ('initial_bend_angle:=0.6', 'initial_bend_angle is 0.6'),
+        ('initial_bend_angle:=left', "initial_bend_angle is 'left'"),
     ],
 )
 def test_a_bad_parameter_at_the_start_is_one_line_and_exit_code_1(argument, named):
     with Program.running('estimator', '--ros-args', '-p', argument) as program:
         assert program.wait() == 1
-        (line,) = program.output().splitlines()
+        line = program.output().splitlines()[-1]
         assert line.startswith('estimator cannot start: ')
         assert named in line
+        assert 'Traceback' not in program.output()
 
 
 def test_a_corrupt_parameter_file_ends_the_start_without_a_traceback(tmp_path):
@@ -364,32 +382,164 @@ def test_a_signal_ends_it_within_two_seconds_with_exit_code_0(number, under_load
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM], ids=lambda n: n.name)
-def test_a_signal_while_the_node_is_made_ends_it_with_exit_code_0(number):
-    """The signal is sent by the program itself, before and in the midst of making the node."""
-    for moment in ('rclpy.init', 'Estimator._publisher'):
-        code = (
-            'import os, sys, rclpy\n'
-            'from tendon_statics.node.estimator import Estimator, main\n'
-            f'original = {moment}\n'
-            'def interrupted(*arguments, **options):\n'
-            f'    os.kill(os.getpid(), {int(number)})\n'
-            '    return original(*arguments, **options)\n'
-            f'{moment} = interrupted\n'
-            'sys.exit(main())\n'
+@pytest.mark.parametrize(
+    'moment',
+    [
+        'tendon_statics.node.program.import_module',
+        'rclpy.init',
+        'tendon_statics.node.estimator.Estimator._publisher',
+    ],
+    ids=lambda moment: moment.rsplit('.', 1)[-1],
+)
+def test_a_signal_before_the_node_runs_ends_it_with_exit_code_0(number, moment):
+    """The program sends the signal to itself: while it imports, before the node, in its making."""
+    code = (
+        'import os, sys, rclpy, tendon_statics.node.estimator\n'
+        'from tendon_statics.node import program\n'
+        f'original = {moment}\n'
+        'def interrupted(*arguments, **options):\n'
+        f'    os.kill(os.getpid(), {int(number)})\n'
+        '    return original(*arguments, **options)\n'
+        f'{moment} = interrupted\n'
+        'sys.exit(program.estimator())\n'
+    )
+    with Program.running_command([sys.executable, '-c', code]) as program:
+        assert program.wait() == 0, program.output()
+        assert 'Traceback' not in program.output()
+
+
+def test_admissible_angles_and_margin_go_out_with_every_result(listener):
+    rows = (HELD, SLIPPING, STOP, SLACK)
+    with listener.estimator():
+        assert [listener.answer(*row) for row in rows] == [
+            *('held', 'equilibrium', 'driven_to_stop', 'slack')
+        ]
+        wait_for('the estimates', lambda: len(listener.estimates) == 4)
+        wait_for('the intervals', lambda: len(listener.admissible_angles) == 3)
+        wait_for('the margins', lambda: len(listener.slip_margins) == 2)
+    for message, row in zip(listener.admissible_angles, rows[:3], strict=True):
+        intervals = admissible_angles(PRELIMINARY, *row)
+        assert [tuple(pair) for pair in np.reshape(message.data, (-1, 2))] == intervals
+        rows_dim, ends_dim = message.layout.dim
+        assert (rows_dim.label, rows_dim.size, rows_dim.stride) == (
+            *('interval', len(intervals)),
+            2 * len(intervals),
         )
-        if (number, moment) == (signal.SIGTERM, 'rclpy.init'):
-            continue  # Nobody has taken SIGTERM over yet: it ends the process by itself.
-        with Program.running_command([sys.executable, '-c', code]) as program:
-            assert program.wait() == 0, program.output()
-            assert 'Traceback' not in program.output()
+        assert (ends_dim.label, ends_dim.size, ends_dim.stride) == ('end', 2, 2)
+    assert listener.slip_margins == [
+        slip_margin(PRELIMINARY, *row, solve(PRELIMINARY, *row).bend_angle) for row in rows[1:3]
+    ]
+    assert listener.estimates[1].slip_margin == listener.slip_margins[0]
+    assert list(listener.estimates[0].admissible_angles) == [
+        end for interval in admissible_angles(PRELIMINARY, *HELD) for end in interval
+    ]
+    assert math.isnan(listener.estimates[0].slip_margin)
+
+
+def test_tracking_remembers_where_the_unit_was(listener):
+    """The node's path is the tracker's; the angle goes out for every valid message."""
+    cycle = [(1.0, 1.5), (1.0, 2.04), (1.0, 2.1), (1.0, 1.5), (1.0, 0.6), (1.0, 0.4), (1.0, 1.5)]
+    with listener.estimator('-p', 'estimation:=tracking', '-p', 'initial_bend_angle:=0.1'):
+        assert listener.reset().success
+        tracker = StickSlipTracker(PRELIMINARY, 0.1)
+        states = [tracker.update(*row) for row in cycle]
+        for row, state in zip(cycle, states, strict=True):
+            assert listener.answer(*row) == state.regime.value
+            assert listener.answer(math.nan, 1.0) == 'invalid'
+        wait_for('the angles', lambda: len(listener.bend_angles) == len(cycle))
+        wait_for('the estimates', lambda: len(listener.estimates) == len(cycle))
+        wait_for('the poses', lambda: len(listener.unit_poses) == len(cycle))
+        assert listener.bend_angles == [state.bend_angle for state in states]
+        assert {'held', 'driven_to_stop'} < set(listener.regimes)
+        pressures = [state.pressure for state in states if state.pressure is not None]
+        wait_for('the pressures', lambda: len(listener.joint_pressures) == len(pressures))
+        assert listener.joint_pressures == pressures
+        assert listener.slip_margins == [state.slip_margin for state in states]
+        for estimate, state in zip(listener.estimates, states, strict=True):
+            assert estimate.regime == state.regime.value
+            assert estimate.bend_angle == state.bend_angle
+            assert estimate.angle_assured
+
+        # Asking does not move the unit.
+        result = json.loads(listener.solve_latest().message)
+        assert result['bend_angle'] == states[-1].bend_angle
+        assert result['regime'] == 'held'
+
+
+def test_a_tracked_unit_is_corrected_by_an_encoder_and_put_back_by_reset(listener):
+    with listener.estimator(
+        '-p', 'estimation:=tracking', '-p', 'initial_bend_angle:=0.1'
+    ) as program:
+        assert listener.reset().message == 'the unit is at 0.1 rad'
+        listener.answer(*HELD)
+        wait_for('the angle', lambda: listener.bend_angles == [0.1])
+
+        def corrected(angle: float) -> bool:
+            """Sent until it is taken, since the first message may be lost."""
+            listener.measured_bend_angle.publish(Float64(data=angle))
+            listener.answer(*HELD)
+            return listener.bend_angles[-1] == 0.2
+
+        wait_for('the correction', lambda: corrected(0.2))
+        for bad in (math.nan, 0.6, -math.inf):
+            listener.measured_bend_angle.publish(Float64(data=bad))
+        wait_for('the rejection', lambda: 'Rejected a measured bend angle' in program.output())
+        assert 'bend_angle is nan rad, allowed is -0.523599 to 0.523599' in program.output()
+        listener.answer(*HELD)
+        assert listener.bend_angles[-1] == 0.2
+
+        assert listener.set_estimator_parameters(initial_bend_angle=double(-0.3)).successful
+        rejected = listener.set_estimator_parameters(initial_bend_angle=double(0.55))
+        assert 'initial_bend_angle is 0.55' in rejected.reason
+        both = {'initial_bend_angle': double(0.3), 'design__max_bend_angle': double(0.25)}
+        assert not listener.set_estimator_parameters(**both).successful
+        assert listener.reset().success
+        count = len(listener.bend_angles)
+        listener.answer(*HELD)
+        wait_for('the angle', lambda: len(listener.bend_angles) > count)
+        assert listener.bend_angles[-1] == -0.3
+
+
+def test_without_memory_there_is_nothing_to_reset(listener):
+    with listener.estimator():
+        answer = listener.reset()
+        assert not answer.success
+        assert 'estimation is equilibrium' in answer.message
+        assert 'measured_bend_angle' not in str(
+            listener.get_subscriber_names_and_types_by_node('estimator', '/')
+        )
+
+
+def test_solve_inverse_answers_or_says_why_not(listener):
+    with listener.estimator():
+        angle = solve(PRELIMINARY, *SLIPPING).bend_angle
+        answer = listener.solve_inverse(angle, pressure=405.6)
+        assert answer.success, answer.message
+        assert (answer.tension_l, answer.tension_s) == pytest.approx(SLIPPING, abs=1e-8)
+        answer = listener.solve_inverse(-angle, total_tension=3.0)
+        assert (answer.tension_l, answer.tension_s) == pytest.approx(SLIPPING[::-1], abs=1e-8)
+        for angle, given, named in (
+            (0.1, {}, 'give one of the two'),
+            (0.1, {'pressure': 400.0, 'total_tension': 3.0}, 'give one of the two'),
+            (0.1, {'pressure': -1.0}, 'pressure is -1.0'),
+            (0.1, {'pressure': math.nan}, 'pressure is nan'),
+            (0.1, {'total_tension': 0.1}, 'weight'),
+            (0.6, {'pressure': 400.0}, 'bend_angle is 0.6'),
+            (math.nan, {'pressure': 400.0}, 'bend_angle is nan'),
+        ):
+            refused = listener.solve_inverse(angle, **given)
+            assert not refused.success
+            assert named in refused.message
+            assert math.isnan(refused.tension_l)
+            assert math.isnan(refused.tension_s)
 
 
 def test_without_the_interfaces_it_runs_and_says_how_to_build_them(listener):
     """The interfaces package made not to be there, in the program's own process."""
     code = (
         'import sys; sys.modules["tendon_statics_interfaces"] = None\n'
-        'from tendon_statics.node.estimator import main\n'
-        'sys.exit(main())\n'
+        'from tendon_statics.node.program import estimator\n'
+        'sys.exit(estimator())\n'
     )
     with Program.running_command([sys.executable, '-c', code]) as program:
         listener.connect(program, without='estimate')
@@ -414,7 +564,7 @@ def test_inputs_are_best_effort_outputs_reliable_and_both_can_be_overridden(list
     with listener.estimator():
         taken = listener.get_subscriptions_info_by_topic('/tensions')
         assert reliability(taken) == ReliabilityPolicy.BEST_EFFORT
-        for topic in ('regime', 'bend_angle', 'joint_pressure', 'unit_pose', 'estimate'):
+        for topic in TOPICS:
             given = listener.get_publishers_info_by_topic(f'/estimator/{topic}')
             assert reliability(given) == ReliabilityPolicy.RELIABLE
     override = 'qos_overrides./tensions.subscription.reliability:=reliable'
@@ -427,12 +577,48 @@ def test_inputs_are_best_effort_outputs_reliable_and_both_can_be_overridden(list
         assert reliability(taken) == ReliabilityPolicy.RELIABLE
 
 
+def test_what_came_by_mistake_is_said(tmp_path, listener):
+    """A design that does not arrive, and parameters that the node does not have."""
+    with listener.estimator() as program:
+        assert "this is the paper's preliminary design" in program.output()
+        assert 'Ready: equilibrium from /tensions' in program.output()
+    path = tmp_path / 'unit.yaml'
+    path.write_text(
+        '/**:\n  ros__parameters:\n    tension_stdev: 0.005\n    desing:\n      mass: 0.1\n'
+    )
+    with listener.estimator('--params-file', str(path)) as program:
+        ignored = 'Parameters that this node does not have, ignored: '
+        (line,) = [line for line in program.output().splitlines() if ignored in line]
+        assert 'tension_stdev' in line
+        assert 'desing.mass' in line
+        assert listener.set_estimator_parameters(design__mass=double(0.03)).successful
+        assert 'Changed: design.mass = 0.03' in program.output()
+
+
+@pytest.mark.parametrize('argument', ['--help', '--params-file', 'unit.yaml'])
+def test_an_argument_that_is_not_for_ros_is_refused(argument):
+    with Program.running('estimator', argument) as program:
+        assert program.wait() == 1
+        (line,) = program.output().splitlines()
+        assert line.startswith(f'estimator cannot start: {argument} is not known here')
+        assert '--ros-args --params-file' in line
+
+
+def test_a_unit_of_next_to_no_weight_does_not_end_the_node(listener):
+    """Its angle would have a deviation beyond all numbers; the answer is that there is none."""
+    with listener.estimator('-p', 'design.friction_coefficient:=1.0') as program:
+        assert listener.set_estimator_parameters(design__mass=double(1e-310)).successful
+        assert listener.answer(1.0, 3.0) in ('held', 'driven_to_stop')
+        assert listener.solve_latest().success
+        assert program.process.poll() is None
+
+
 def test_every_name_can_be_remapped(listener):
     arguments = ('-r', '__ns:=/left', '-r', 'tensions:=/tensions', '-r', '__node:=joint_1')
-    moved = (
-        f'{own}:=/estimator/{own[2:]}'
-        for own in ('~/regime', '~/bend_angle', '~/joint_pressure', '~/unit_pose', '~/estimate')
-    )
+    moved = (f'{own}:=/estimator/{own[2:]}' for own in (f'~/{topic}' for topic in TOPICS))
     with listener.estimator(*arguments, *(part for rule in moved for part in ('-r', rule))):
         assert listener.answer(*SLIPPING) == 'equilibrium'
-        assert ('joint_1', '/left') in listener.get_node_names_and_namespaces()
+        # Names of nodes are found out later than their topics.
+        wait_for(
+            'the name', lambda: ('joint_1', '/left') in listener.get_node_names_and_namespaces()
+        )

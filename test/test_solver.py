@@ -1,6 +1,7 @@
 """`solve` against published, recorded and independent results, and by its properties."""
 
 import csv
+import json
 import math
 from collections import Counter
 from dataclasses import replace
@@ -235,8 +236,57 @@ def test_friction_above_one_and_a_heavy_unit_keep_their_digits():
     expected = solve_quartic(design, total * 0.01, total * 0.99)
     assert expected.regime == 'driven_to_stop'
     pressure = solve(design, total * 0.01, total * 0.99).pressure
-    # T − W itself has seven digits left here.
-    assert pressure == pytest.approx(expected.pressure, rel=1e-6)
+    assert pressure == pytest.approx(expected.pressure, rel=PRESSURE_TOLERANCE)
+
+
+@given(cases(), st.floats(-12.0, -1.0), st.floats(0.1, 0.9))
+@settings(max_examples=150, deadline=None)
+def test_tensions_that_hardly_exceed_the_weight_keep_their_digits(case, exponent, share):
+    design, _, _ = case
+    total = design.weight * (1.0 + 10.0**exponent)
+    tensions = total * share, total * (1.0 - share)
+    assume(sum(tensions) > design.weight)
+    expected, equilibrium = solve_quartic(design, *tensions), solve(design, *tensions)
+    assume(not expected.doubtful and expected.regime == equilibrium.regime)
+    if expected.pressure is not None:
+        assert equilibrium.pressure == pytest.approx(expected.pressure, rel=PRESSURE_TOLERANCE)
+
+
+@pytest.mark.parametrize(
+    ('values', 'tensions'),
+    [
+        (
+            (
+                *(0.01, 0.0, -0.0002779227153540849, 0.04868190611967352, 0.07164579484089229),
+                *(2.118356171316682, 3.0877381018912082, 1.5, 9.81),
+            ),
+            (1.4073725036922449, 1.5926274963077551),
+        ),
+        (
+            (
+                *(0.01, 0.0, -0.001169859696948364, 0.22740897014644076, 0.6358340818281637),
+                *(2.1225203802187065, 3.0879572707807887, 1.5, 9.81),
+            ),
+            (1.2054060440733825, 1.7945939559266175),
+        ),
+        ((0.01, 0.0, 0.01, 5e-324, 1.05, 1.0, 1.5, 0.5, 9.81), (1.0, 2.05)),
+        ((0.01, 0.0, 0.01, 1e-310, 1.0, 1.0, 1.5, 0.5, 9.81), (1.0, 3.0)),
+    ],
+)
+def test_a_design_made_up_to_be_flat_is_solved_without_end_or_invention(values, tensions):
+    """G is zero to rounding over a wide range: once a minute's work and 97578 roots."""
+    equilibrium = solve(JointDesign(*values), *tensions)
+    assert equilibrium.root_count <= 4
+    json.dumps(equilibrium.as_dict(), allow_nan=False)
+
+
+def test_where_two_roots_merge_no_more_than_two_are_seen():
+    design = next(design for design, row in reference_cases() if row['root_count'] == '2')
+    counts = set()
+    for index in range(100):
+        tension_s = 1.212456747700884 + 2e-14 * index / 100
+        counts.add(solve(design, 0.6492, tension_s).root_count)
+    assert counts <= {0, 1, 2}
 
 
 @pytest.mark.parametrize('scale', [1e-6, 1.0, 1e8])

@@ -12,7 +12,7 @@ def test_columns_are_found_by_name_and_comments_are_left_alone(tmp_path):
     path = tmp_path / 'run.csv'
     path.write_text('# a run\ntime, tension_s ,tension_l\n\n0.0,2.0,1.0\n# pause\n0.1,nan,-1e-3\n')
     first, second = load_tensions(path)
-    assert first == (1.0, 2.0)
+    assert first == (1.0, 2.0, 0.0)
     assert second[0] == -0.001
     assert math.isnan(second[1])
 
@@ -44,4 +44,4 @@ def test_a_file_that_cannot_be_read_is_named(tmp_path):
 
 
 def test_the_demo_holds_the_published_case():
-    assert (1.0, 2.0) in load_tensions(installed_config('demo_tensions.csv'))
+    assert (1.0, 2.0, None) in load_tensions(installed_config('demo_tensions.csv'))

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import os
 import signal
+import subprocess
 import sys
 
 from domain_coordinator import domain_id
@@ -27,7 +28,7 @@ PAPERS_CASE = (paper.TENSION_L, paper.TENSION_S)
 def main() -> None:
     """Run the demo."""
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
-    rows = load_tensions(installed_config('demo_tensions.csv'))
+    rows = [sample[:2] for sample in load_tensions(installed_config('demo_tensions.csv'))]
     design = str(installed_config('preliminary_design.yaml'))
     # A recording that is played once is to lose no row, not even the first.
     reliable = ('-p', 'qos_overrides./tensions.subscription.reliability:=reliable')
@@ -49,6 +50,9 @@ def main() -> None:
                 f'± {math.degrees(answer.bend_angle_stddev):.2f}, {answer.pressure:.1f} Pa'
             )
             end('estimator', estimator)
+    published = (round(math.degrees(answer.bend_angle), 2), round(answer.pressure, 1))
+    if published != (round(math.degrees(paper.BEND_ANGLE), 2), paper.PRESSURE):
+        raise RuntimeError(f'the published case came back as {published}')
 
 
 def has_answers(listener: Listener, count: int) -> bool:
@@ -95,5 +99,7 @@ def end(name: str, program: Program) -> None:
 if __name__ == '__main__':
     try:
         main()
-    except (TimeoutError, RuntimeError) as error:
+    except KeyboardInterrupt:
+        sys.exit('demo interrupted')
+    except (TimeoutError, RuntimeError, AssertionError, subprocess.TimeoutExpired) as error:
         sys.exit(f'demo failed: {error}')

@@ -18,6 +18,7 @@ from tendon_statics.command_line.main import main as run
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = ('README.md', 'docs/model.md')
 FIGURES = {
+    'docs/hysteresis.svg': 'plot hysteresis',
     'docs/residual.svg': 'plot residual',
     'docs/unit.svg': 'plot unit',
 }

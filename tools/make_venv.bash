@@ -28,6 +28,8 @@ has_apt_ros && set -- "${1:-/usr/bin/python3}"
 python=$(find_python "$@") || fail "needs Python 3.10 to 3.13${1:+, which $1 is not}:" \
   "install one (Debian, Ubuntu: apt install python3 python3-dev python3-venv)" \
   "or name it, make PYTHON=/path/to/python3"
+# In an activated environment, say the one about to be made anew, it is the Python behind that.
+python=$("$python" -c 'import sys; print(sys._base_executable)')
 "$python" -c 'import ensurepip, venv' 2>/dev/null || fail "needs Python's venv module:" \
   "install it (Debian, Ubuntu: apt install python3-venv)"
 "$python" -c 'import os, sysconfig as s, sys
@@ -40,7 +42,7 @@ done
 
 rm -rf .venv
 if has_apt_ros; then
-  echo "== .venv with the project's tools, on top of $ROS_ROOT"
+  echo "== .venv with the project's tools, on top of $JAZZY_ROOT"
   "$python" -m venv --system-site-packages .venv
   .venv/bin/pip install --quiet -r tools/requirements.txt colcon-common-extensions
 else

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import signal
 import subprocess
 import tempfile
@@ -24,7 +25,7 @@ from rclpy.qos import QoSProfile
 from std_msgs.msg import Float64, Float64MultiArray, String
 from std_srvs.srv import Trigger
 from tendon_statics_interfaces.msg import Estimate
-from tendon_statics_interfaces.srv import Solve
+from tendon_statics_interfaces.srv import Solve, SolveInverse
 
 TIME_LIMIT = 30.0
 """Seconds to wait for anything; ten times what is expected."""
@@ -124,13 +125,18 @@ class Listener(Node):
         self.bend_angles: list[float] = []
         self.joint_pressures: list[float] = []
         self.unit_poses: list[PoseWithCovarianceStamped] = []
+        self.slip_margins: list[float] = []
+        self.admissible_angles: list[Float64MultiArray] = []
         self.estimates: list[Estimate] = []
+        self.measured_bend_angle = self.create_publisher(Float64, 'measured_bend_angle', 10)
         self.tensions = self.create_publisher(Float64MultiArray, 'tensions', 1000)
         self._clients_by_name = {
             name: self.create_client(service_type, f'estimator/{name}')
             for name, service_type in (
                 ('solve', Solve),
+                ('solve_inverse', SolveInverse),
                 ('solve_latest', Trigger),
+                ('reset', Trigger),
                 ('get_parameters', GetParameters),
                 ('describe_parameters', DescribeParameters),
                 ('set_parameters_atomically', SetParametersAtomically),
@@ -141,6 +147,8 @@ class Listener(Node):
             self._keep(Float64, 'bend_angle', self.bend_angles, attribute='data'),
             self._keep(Float64, 'joint_pressure', self.joint_pressures, attribute='data'),
             self._keep(PoseWithCovarianceStamped, 'unit_pose', self.unit_poses),
+            self._keep(Float64, 'slip_margin', self.slip_margins, attribute='data'),
+            self._keep(Float64MultiArray, 'admissible_angles', self.admissible_angles),
             self._keep(Estimate, 'estimate', self.estimates),
         )
 
@@ -189,15 +197,28 @@ class Listener(Node):
             self.publish(*ANSWERED_ON_ALL_TOPICS)
             with suppress(TimeoutError):
                 wait_for('an answer', lambda: all(kept.values()), time_limit=0.5)
-        # Nothing is lost any more: these two are the last to be answered on their topics.
+        # Nothing is lost any more: each topic is seen to answer the last of these that it answers.
         self.publish(*MIRRORED)
+        wait_for('the mirrored angle', lambda: self.bend_angles[-1] < 0.0)
+        wait_for(
+            'the mirrored pressure', lambda: self.joint_pressures[-1] > self.joint_pressures[0]
+        )
+        wait_for('the mirrored pose', lambda: self.unit_poses[-1].pose.pose.orientation.y < 0.0)
+        wait_for('the mirrored margin', lambda: self.slip_margins[-1] < 0.0)
+        numbers = (self.bend_angles, self.slip_margins, self.unit_poses)
+        before = [len(store) for store in (*numbers, self.joint_pressures)]
         self.publish(*ANSWERED_AS_HELD)
-        wait_for('the last angle', lambda: self.bend_angles[-1] < 0.0)
-        wait_for('the last pressure', lambda: self.joint_pressures[-1] != self.joint_pressures[0])
-        wait_for('the last pose', lambda: self.unit_poses[-1].pose.pose.orientation.y < 0.0)
-        wait_for('the last regime', lambda: self.regimes[-1] == 'held')
+        wait_for('the regime held', lambda: self.regimes[-1] == 'held')
+        wait_for('the intervals of a held unit', lambda: len(self.admissible_angles[-1].data) > 0)
         if not without:
-            wait_for('the last estimate', lambda: self.estimates[-1].regime == 'held')
+            wait_for('the estimate of a held unit', lambda: self.estimates[-1].regime == 'held')
+            # A tracker knows where it is held.
+            held = self.estimates[-1]
+            known = [not math.isnan(held.bend_angle)] * 3 + [not math.isnan(held.pressure)]
+            for store, count, more in zip(
+                (*numbers, self.joint_pressures), before, known, strict=True
+            ):
+                wait_for('the numbers of a held unit', lambda s=store, n=count + more: len(s) == n)
         for store in self._stores:
             store.clear()
 
@@ -233,6 +254,15 @@ class Listener(Node):
     def solve(self, tension_l: float, tension_s: float) -> Solve.Response:
         """Call ``~/solve``."""
         return self.call('solve', Solve.Request(tension_l=tension_l, tension_s=tension_s))
+
+    def solve_inverse(self, bend_angle: float, **given: float) -> SolveInverse.Response:
+        """Call ``~/solve_inverse``."""
+        request = SolveInverse.Request(bend_angle=bend_angle, **given)
+        return self.call('solve_inverse', request)
+
+    def reset(self) -> Trigger.Response:
+        """Call ``~/reset``."""
+        return self.call('reset', Trigger.Request())
 
     def solve_latest(self) -> Trigger.Response:
         """Call ``~/solve_latest``."""

@@ -3,22 +3,38 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
 from typing import NoReturn
 
-from ..physics.errors import DesignError, TensionError
+from ..physics.errors import BendAngleError, DesignError, TensionError, UnreachableError
 from ..tension_file import TensionFileError
 from .options import UsageError
 
 VERBS = {
     'solve': 'bend angle and joint pressure of one pair of cable tensions',
+    'admissible': 'the bend angles at which friction can hold the unit',
+    'track': 'follow the unit, with memory, through the tensions of a CSV file',
+    'invert': 'the tensions at which the unit is about to slip at a bend angle',
     'paper': "the paper's published case: errata, identified values and sign check, as tables",
     'design': 'check a design file and show what is in it',
-    'plot': 'figures: Eq. (4) over the bend angle',
+    'plot': 'figures: Eq. (4), the unit, its hysteresis',
 }
 """Verb → what it does; the module of the same name has the rest."""
+
+
+ERRORS = (
+    UsageError,
+    DesignError,
+    TensionError,
+    BendAngleError,
+    UnreachableError,
+    TensionFileError,
+    OSError,
+)
+"""What is the user's to mend"""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -28,6 +44,16 @@ class _Parser(argparse.ArgumentParser):
         raise UsageError(f'{message} (see {self.prog} --help)')
 
 
+class _Version(argparse.Action):
+    """Looks the version up only when it is asked for."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
+        from importlib.metadata import version
+
+        print(f'tendon-statics {version("tendon_statics")}')
+        parser.exit()
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run ``tendon-statics``; return the exit code: 0, or 2 with one line on stderr."""
     arguments = list(sys.argv[1:] if arguments is None else arguments)
@@ -35,6 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         prog='tendon-statics',
         description='Statics of a tendon-driven ball-joint unit, from its cable tensions.',
     )
+    parser.add_argument('--version', action=_Version, nargs=0, help='print the version and exit')
     verbs = parser.add_subparsers(dest='verb', metavar='VERB', required=True)
     for verb, description in VERBS.items():
         subparser = verbs.add_parser(verb, help=description, description=description)
@@ -45,13 +72,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         chosen = parser.parse_args(arguments)
         chosen.run(chosen)
-    except (UsageError, DesignError, TensionError, TensionFileError, FileNotFoundError) as error:
-        print(f'tendon-statics: {error}', file=sys.stderr)
-        return 2
+        sys.stdout.flush()
     except BrokenPipeError:
         # The reader of our output has gone, as `head` does; that is no error of ours.
-        sys.stderr.close()
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+    except ERRORS as error:
+        print(f'tendon-statics: {error}', file=sys.stderr)
+        return 2
     return 0
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 
 from ..design_file import default_design_path, load_design
 from ..physics import JointDesign
@@ -36,3 +37,15 @@ def add_tension_options(parser: argparse.ArgumentParser) -> None:
             metavar='N',
             help=f'tension of cable {name} in N',
         )
+
+
+def add_format_option(parser: argparse.ArgumentParser) -> None:
+    """Add ``--format text|json``."""
+    parser.add_argument(
+        '--format', choices=('text', 'json'), default='text', help='default: %(default)s'
+    )
+
+
+def print_json(content: object) -> None:
+    """Print something as JSON; what is not determined is null, never NaN."""
+    print(json.dumps(content, indent=2, allow_nan=False))

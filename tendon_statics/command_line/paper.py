@@ -5,20 +5,19 @@ from __future__ import annotations
 import argparse
 import math
 
+from ..design_file import default_design_path, load_design
 from ..physics import JointDesign, Regime, contact_coefficients, paper, solve
-from .options import add_design_option, design_from
 from .tables import markdown_table
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the verb takes."""
     parser.add_argument('--section', choices=SECTIONS, help='one table only; default: all')
-    add_design_option(parser)
 
 
 def run(options: argparse.Namespace) -> None:
     """Print the tables."""
-    design = design_from(options)
+    design = load_design(default_design_path())
     names = [options.section] if options.section else list(SECTIONS)
     print('\n\n'.join(SECTIONS[name](design) for name in names))
 

@@ -7,7 +7,17 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..physics import Equilibrium, JointDesign, paper, residual, solve
+from ..physics import (
+    Equilibrium,
+    JointDesign,
+    Regime,
+    StickSlipTracker,
+    admissible_angles,
+    paper,
+    residual,
+    slip_margin,
+    solve,
+)
 from .figures import BLUE, FORMATS, GREEN, ORANGE, VERMILION, figure
 from .options import UsageError, add_design_option, design_from
 
@@ -44,6 +54,8 @@ def run(options: argparse.Namespace) -> None:
     """Draw and write the figure."""
     design = design_from(options)
     equilibrium = solve(design, options.tension_l, options.tension_s)
+    if equilibrium.regime is Regime.SLACK:
+        raise UsageError('there is nothing to draw: a cable is slack, which is outside the model')
     _, draw = FIGURES[options.figure]
     height = 4.6 if options.figure == 'unit' else 4.0
     with figure(options.output, height=height) as axes:
@@ -175,6 +187,55 @@ def _draw_unit(axes: Axes, design: JointDesign, equilibrium: Equilibrium) -> Non
     )
 
 
+def _draw_hysteresis(axes: Axes, design: JointDesign, equilibrium: Equilibrium) -> None:
+    """Draw the path of a unit whose cables trade tension at a constant total."""
+    total = equilibrium.tension_l + equilibrium.tension_s
+    # Far enough for the unit to slip both ways, within what the cables can trade.
+    at_limit = [
+        abs(difference)
+        for difference in _between(-0.999 * total, 0.999 * total, 1000)
+        if not admissible_angles(design, *_share(total, difference))
+    ]
+    reach = min(1.25 * min(at_limit, default=0.8 * total), 0.999 * total)
+    ramp = _between(0.0, reach, 401) + _between(reach, -reach, 801) + _between(-reach, reach, 801)
+    tracker = StickSlipTracker(design)
+    states = [tracker.update(*_share(total, difference)) for difference in ramp]
+
+    differences = _between(-reach, reach, 401)
+    stop = design.max_bend_angle
+    angles = _between(-stop, stop, 121)
+    margins = [
+        [slip_margin(design, *_share(total, difference), angle) for difference in differences]
+        for angle in angles
+    ]
+    degrees = [math.degrees(angle) for angle in angles]
+    axes.contourf(differences, degrees, margins, levels=[-1.0, 1.0], colors=['#cfe3f1'])
+    axes.plot(
+        ramp,
+        [math.degrees(state.bend_angle or 0.0) for state in states],
+        color=VERMILION,
+        label='path of the unit: load, unload, load the other way',
+    )
+    axes.fill_between([], [], color='#cfe3f1', label='angles that friction can hold')
+    axes.plot([0.0], [0.0], 'o', color=VERMILION, markersize=5)
+    for share in (0.13, 0.33, 0.42, 0.7, 0.85):
+        index = int(share * len(ramp))
+        tail, tip = (
+            (ramp[i], math.degrees(states[i].bend_angle or 0.0)) for i in (index, index + 10)
+        )
+        style = {'arrowstyle': '-|>', 'color': VERMILION, 'mutation_scale': 14}
+        axes.annotate('', xy=tip, xytext=tail, arrowprops=style)
+    axes.set_xlabel(f'tension difference T_s − T_l [N], at T_l + T_s = {total:g} N')
+    axes.set_ylabel('bend angle θ [°]')
+    axes.set_ylim(-1.15 * math.degrees(stop), 1.15 * math.degrees(stop))
+    axes.legend(loc='upper center', bbox_to_anchor=(0.5, 1.2), ncols=1, frameon=False)
+
+
+def _share(total: float, difference: float) -> tuple[float, float]:
+    """Tensions of a given sum and difference."""
+    return 0.5 * (total - difference), 0.5 * (total + difference)
+
+
 def _between(start: float, end: float, count: int = 41) -> list[float]:
     return [start + (end - start) * index / (count - 1) for index in range(count)]
 
@@ -188,6 +249,10 @@ def _title(equilibrium: Equilibrium) -> str:
 
 FIGURES = {
     'residual': ("Eq. (4) over the bend angle (the paper's Fig. 2)", _draw_residual),
+    'hysteresis': (
+        'the path of a unit whose cables trade tension, and the angles that friction can hold',
+        _draw_hysteresis,
+    ),
     'unit': ("the unit at its bend angle, with what acts on it (the paper's Fig. 1)", _draw_unit),
 }
 """Figure → what it shows, and what draws it."""

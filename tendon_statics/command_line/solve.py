@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 
 from ..physics import Equilibrium, Regime, solve
-from .options import add_design_option, add_tension_options, design_from
+from .options import (
+    add_design_option,
+    add_format_option,
+    add_tension_options,
+    design_from,
+    print_json,
+)
 
 MEANING = {
     Regime.EQUILIBRIUM: 'on the verge of slipping at this angle',
-    Regime.HELD: 'friction can hold any angle; tensions alone do not determine it',
-    Regime.DRIVEN_TO_STOP: 'friction cannot hold; the unit slides to its mechanical stop',
+    Regime.HELD: 'friction holds from 0 to the stop; tensions alone do not determine the angle',
+    Regime.DRIVEN_TO_STOP: 'friction holds nowhere from 0 to the stop, to which the unit slides',
     Regime.SLACK: 'a cable carries no tension, which is outside the model',
 }
 
@@ -21,8 +26,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the verb takes."""
     add_tension_options(parser)
     add_design_option(parser)
+    add_format_option(parser)
     parser.add_argument(
-        '--format', choices=('text', 'json'), default='text', help='default: %(default)s'
+        '--tension-stddev',
+        type=float,
+        default=0.01,
+        metavar='N',
+        help='standard deviation of each tension in N, for the text; default: %(default)s',
     )
 
 
@@ -30,19 +40,19 @@ def run(options: argparse.Namespace) -> None:
     """Solve and print."""
     equilibrium = solve(design_from(options), options.tension_l, options.tension_s)
     if options.format == 'json':
-        print(json.dumps(equilibrium.as_dict(), indent=2, allow_nan=False))
+        print_json(equilibrium.as_dict())
     else:
-        print('\n'.join(_text(equilibrium)))
+        print('\n'.join(_text(equilibrium, options.tension_stddev)))
 
 
-def _text(equilibrium: Equilibrium) -> list[str]:
+def _text(equilibrium: Equilibrium, tension_stddev: float) -> list[str]:
     lines = [f'regime        {equilibrium.regime}: {MEANING[equilibrium.regime]}']
     if equilibrium.bend_angle is None or equilibrium.pressure is None:
         return lines
     lines += [
         f'bend angle    {math.degrees(equilibrium.bend_angle):.4f} deg '
         f'({equilibrium.bend_angle:.10f} rad), towards cable '
-        f'{"s" if equilibrium.bend_angle > 0 else "l"}',
+        f'{"l" if equilibrium.bend_angle < 0 else "s"}',
         f'pressure      {equilibrium.pressure:.4f} Pa '
         f'(contact force {equilibrium.normal_force:.6f} N)',
     ]
@@ -54,6 +64,13 @@ def _text(equilibrium: Equilibrium) -> list[str]:
                 if equilibrium.stable
                 else 'this one unstable: pushed past it, the unit slides on to the stop'
             )
+        )
+    angle_stddev = equilibrium.bend_angle_stddev(tension_stddev)
+    pressure_stddev = equilibrium.pressure_stddev(tension_stddev)
+    if angle_stddev is not None and pressure_stddev is not None:
+        lines.append(
+            f'deviation     {math.degrees(angle_stddev):.2f} deg and {pressure_stddev:.2f} Pa '
+            f'at {tension_stddev:g} N of noise on each tension'
         )
     gradient, pressure_gradient = equilibrium.bend_angle_gradient, equilibrium.pressure_gradient
     if gradient and pressure_gradient:

@@ -2,24 +2,36 @@
 
 from __future__ import annotations
 
+import copy
 import json
-from collections.abc import Sequence
+from collections.abc import Callable
+from typing import Any
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
-from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
+from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
+from rclpy.subscription import Subscription
 from rclpy.time import Time
 from std_msgs.msg import Float64, Float64MultiArray, Header, String
 from std_srvs.srv import Trigger
 
-from ..physics import DesignError, Equilibrium, TensionError, solve
+from ..physics import (
+    BendAngleError,
+    Equilibrium,
+    Regime,
+    StickSlipTracker,
+    TensionError,
+    TrackedState,
+    admissible_angles,
+    slip_margin,
+    solve,
+)
 from . import messages
-from .design_parameters import changed_design, declare_design
-from .program import StartError, run_node
+from .settings import SettingError, declare_settings, warn_of_unknown_parameters
 
 WARNING_PERIOD = 5.0
 """Least time in s between two warnings that messages cause."""
@@ -27,58 +39,83 @@ WARNING_PERIOD = 5.0
 INVALID = 'invalid'
 """What ``~/regime`` says of a message that is no pair of tensions."""
 
-MAX_TENSION_STDDEV = 1000.0
-"""Largest standard deviation of a tension in N that is taken."""
-
 INPUT_DEPTH = 1000
-"""Tension messages kept while the node is busy, so that a burst or a stall loses none."""
+"""Messages kept while the node is busy, so that a burst or a stall loses none."""
+
+ESTIMATIONS = ('equilibrium', 'tracking')
 
 
 class Estimator(Node):
-    """Solves every pair of tensions that arrives and publishes what the model determines."""
+    """Publishes what every pair of tensions that arrives says of the unit.
+
+    With the parameter ``estimation`` at ``equilibrium`` each pair is solved by itself, as in the
+    paper; at ``tracking`` a `StickSlipTracker` remembers where the unit was.
+    """
 
     def __init__(self) -> None:
         super().__init__('estimator')
-        self._design = declare_design(self)
-        self._tension_stddev = self._declare_tension_stddev()
-        self._frame_id = self.declare_parameter(
+        self._settings = declare_settings(self)
+        self._frame_id = self._fixed_parameter(
             'frame_id',
             'joint',
-            ParameterDescriptor(
-                description='Frame of the joint, in every stamped message: origin in the centre '
-                'of the ball, Z along the unit at zero bend, X towards cable s'
-            ),
-        ).value
+            'Frame of the joint, in every stamped message: origin in the centre of the ball, '
+            'Z along the unit at zero bend, X towards cable s',
+        )
+        self._tracker = self._make_tracker()
         self._latest: tuple[float, float, Time] | None = None
         self._invalid_count = 0
         self._invalid_since_latest = 0
         self._invalid_reason = ''
+        self._rejected_corrections = 0
 
         self._regime = self._publisher(String, '~/regime')
         self._bend_angle = self._publisher(Float64, '~/bend_angle')
         self._joint_pressure = self._publisher(Float64, '~/joint_pressure')
         self._unit_pose = self._publisher(PoseWithCovarianceStamped, '~/unit_pose')
+        self._slip_margin = self._publisher(Float64, '~/slip_margin')
+        self._admissible_angles = self._publisher(Float64MultiArray, '~/admissible_angles')
         self.create_service(Trigger, '~/solve_latest', self._on_solve_latest)
+        self.create_service(Trigger, '~/reset', self._on_reset)
         self._estimate = None
         if messages.INTERFACES_MISSING:
             self.get_logger().warning(
-                'No ~/solve and no ~/estimate, since tendon_statics_interfaces is not there '
-                f'({messages.INTERFACES_MISSING}). It is in the folder interfaces/: '
+                'No ~/solve, ~/solve_inverse and ~/estimate, since tendon_statics_interfaces is '
+                f'not there ({messages.INTERFACES_MISSING}). It is in the folder interfaces/: '
                 'colcon build --base-paths . interfaces'
             )
         else:
             self._estimate = self._publisher(messages.Estimate, '~/estimate')
             self.create_service(messages.Solve, '~/solve', self._on_solve)
+            self.create_service(messages.SolveInverse, '~/solve_inverse', self._on_solve_inverse)
         # Last, since every declaration fires them too.
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._take_parameters)
-        self._tensions = self.create_subscription(
-            Float64MultiArray,
-            'tensions',
-            self._on_tensions,
-            QoSProfile(depth=INPUT_DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT),
-            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+        self._tensions = self._subscription(Float64MultiArray, 'tensions', self._on_tensions)
+        if self._tracker is not None:
+            self._subscription(Float64, 'measured_bend_angle', self._on_measured_bend_angle)
+        warn_of_unknown_parameters(self)
+        estimation = 'equilibrium' if self._tracker is None else 'tracking'
+        self.get_logger().info(f'Ready: {estimation} from {self._tensions.topic_name}')
+
+    def _fixed_parameter(self, name: str, default: str, description: str) -> str:
+        descriptor = ParameterDescriptor(description=description, read_only=True)
+        value: str = self.declare_parameter(name, default, descriptor).value
+        return value
+
+    def _make_tracker(self) -> StickSlipTracker | None:
+        estimation = self._fixed_parameter(
+            'estimation',
+            'equilibrium',
+            'equilibrium: each pair of tensions is solved by itself; '
+            'tracking: the estimator remembers where the unit was',
         )
+        if estimation not in ESTIMATIONS:
+            raise SettingError(
+                f'estimation is {estimation!r}, allowed is {" or ".join(ESTIMATIONS)}'
+            )
+        if estimation == 'equilibrium':
+            return None
+        return StickSlipTracker(self._settings.design, self._settings.initial_bend_angle)
 
     def _publisher(self, message_type: type, topic: str) -> Publisher:
         return self.create_publisher(
@@ -88,35 +125,32 @@ class Estimator(Node):
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
 
-    def _declare_tension_stddev(self) -> float:
-        descriptor = ParameterDescriptor(
-            description='[N]: standard deviation of each measured tension, the two independent',
-            floating_point_range=[FloatingPointRange(from_value=0.0, to_value=MAX_TENSION_STDDEV)],
-            dynamic_typing=True,
+    def _subscription(
+        self, message_type: type, topic: str, callback: Callable[[Any], None]
+    ) -> Subscription:
+        return self.create_subscription(
+            message_type,
+            topic,
+            callback,
+            QoSProfile(depth=INPUT_DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT),
+            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
-        parameter = Parameter(
-            'tension_stddev',
-            value=self.declare_parameter('tension_stddev', 0.01, descriptor).value,
-        )
-        return _checked_stddev(parameter.value)
 
     # Parameters: all of a change is checked before any of it is taken.
 
     def _check_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
         try:
-            changed_design(self._design, parameters)
-            for parameter in parameters:
-                if parameter.name == 'tension_stddev':
-                    _checked_stddev(parameter.value)
-        except (DesignError, StartError) as error:
+            self._settings.changed(parameters)
+        except SettingError as error:
             return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
 
     def _take_parameters(self, parameters: list[Parameter]) -> None:
-        self._design = changed_design(self._design, parameters)
-        for parameter in parameters:
-            if parameter.name == 'tension_stddev':
-                self._tension_stddev = _checked_stddev(parameter.value)
+        self._settings = self._settings.changed(parameters)
+        if self._tracker is not None:
+            self._tracker.change_design(self._settings.design)
+        changes = ', '.join(f'{parameter.name} = {parameter.value!r}' for parameter in parameters)
+        self.get_logger().info(f'Changed: {changes}')
 
     # Topics
 
@@ -124,13 +158,20 @@ class Estimator(Node):
         stamp = self.get_clock().now()
         try:
             tension_l, tension_s = messages.tensions_from_array(message)
-            equilibrium = solve(self._design, tension_l, tension_s)
+            result = self._result(self._tracker, tension_l, tension_s)
         except TensionError as error:
             self._refuse(str(error))
             return
         self._latest = (tension_l, tension_s, stamp)
         self._invalid_since_latest = 0
-        self._publish(equilibrium, stamp)
+        self._publish(result, stamp)
+
+    def _result(
+        self, tracker: StickSlipTracker | None, tension_l: float, tension_s: float
+    ) -> Equilibrium | TrackedState:
+        if tracker is None:
+            return solve(self._settings.design, tension_l, tension_s)
+        return tracker.update(tension_l, tension_s)
 
     def _refuse(self, reason: str) -> None:
         """Count and report a message that is no pair of tensions."""
@@ -144,18 +185,39 @@ class Estimator(Node):
             throttle_duration_sec=WARNING_PERIOD,
         )
 
-    def _publish(self, equilibrium: Equilibrium, stamp: Time) -> None:
-        self._regime.publish(String(data=equilibrium.regime.value))
+    def _publish(self, result: Equilibrium | TrackedState, stamp: Time) -> None:
+        """Publish all that is determined, and nothing else."""
+        design, stddev = self._settings.design, self._settings.tension_stddev
         header = Header(stamp=stamp.to_msg(), frame_id=self._frame_id)
-        if equilibrium.bend_angle is not None and equilibrium.pressure is not None:
-            self._bend_angle.publish(Float64(data=equilibrium.bend_angle))
-            self._joint_pressure.publish(Float64(data=equilibrium.pressure))
-            stddev = equilibrium.bend_angle_stddev(self._tension_stddev)
-            if stddev is not None:
-                pose = messages.unit_pose(self._design, equilibrium.bend_angle, stddev, header)
+        self._regime.publish(String(data=result.regime.value))
+        margin = None
+        if result.bend_angle is not None:
+            margin = slip_margin(design, result.tension_l, result.tension_s, result.bend_angle)
+            self._bend_angle.publish(Float64(data=result.bend_angle))
+            self._slip_margin.publish(Float64(data=margin))
+            angle_stddev = result.bend_angle_stddev(stddev)
+            if angle_stddev is not None:
+                pose = messages.unit_pose(design, result.bend_angle, angle_stddev, header)
                 self._unit_pose.publish(pose)
+        if result.pressure is not None:
+            self._joint_pressure.publish(Float64(data=result.pressure))
+        intervals = []
+        if result.regime is not Regime.SLACK:
+            intervals = admissible_angles(design, result.tension_l, result.tension_s)
+            self._admissible_angles.publish(messages.intervals_array(intervals))
         if self._estimate is not None:
-            self._estimate.publish(messages.estimate(equilibrium, self._tension_stddev, header))
+            self._estimate.publish(messages.estimate(result, margin, intervals, stddev, header))
+
+    def _on_measured_bend_angle(self, message: Float64) -> None:
+        assert self._tracker is not None
+        try:
+            self._tracker.reset(message.data)
+        except BendAngleError as error:
+            self._rejected_corrections += 1
+            self.get_logger().warning(
+                f'Rejected a measured bend angle ({self._rejected_corrections} so far): {error}',
+                throttle_duration_sec=WARNING_PERIOD,
+            )
 
     # Services
 
@@ -163,10 +225,15 @@ class Estimator(Node):
         self, request: messages.Solve.Request, response: messages.Solve.Response
     ) -> messages.Solve.Response:
         try:
-            equilibrium = solve(self._design, request.tension_l, request.tension_s)
+            equilibrium = solve(self._settings.design, request.tension_l, request.tension_s)
         except TensionError as error:
             return messages.refuse_solve(response, str(error))
-        return messages.fill_solve_response(response, equilibrium, self._tension_stddev)
+        return messages.fill_solve_response(response, equilibrium, self._settings.tension_stddev)
+
+    def _on_solve_inverse(
+        self, request: messages.SolveInverse.Request, response: messages.SolveInverse.Response
+    ) -> messages.SolveInverse.Response:
+        return messages.fill_inverse_response(response, self._settings.design, request)
 
     def _on_solve_latest(
         self, _request: Trigger.Request, response: Trigger.Response
@@ -179,16 +246,18 @@ class Estimator(Node):
             return response
         tension_l, tension_s, stamp = self._latest
         try:
-            equilibrium = solve(self._design, tension_l, tension_s)
+            # A copy, since asking does not move the unit.
+            result = self._result(copy.copy(self._tracker), tension_l, tension_s)
         except TensionError as error:  # valid for the design of then, not for that of now
             response.message = str(error)
             return response
+        stddev = self._settings.tension_stddev
         response.success = True
         response.message = json.dumps(
             {
-                **equilibrium.as_dict(),
-                'bend_angle_stddev': equilibrium.bend_angle_stddev(self._tension_stddev),
-                'pressure_stddev': equilibrium.pressure_stddev(self._tension_stddev),
+                **result.as_dict(),
+                'bend_angle_stddev': result.bend_angle_stddev(stddev),
+                'pressure_stddev': result.pressure_stddev(stddev),
                 'age': (self.get_clock().now() - stamp).nanoseconds * 1e-9,
                 'invalid_since': self._invalid_since_latest,
             },
@@ -196,15 +265,12 @@ class Estimator(Node):
         )
         return response
 
-
-def _checked_stddev(value: object) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise StartError(f'tension_stddev is {value!r}, which is not a number in N')
-    if not 0.0 <= value <= MAX_TENSION_STDDEV:
-        raise StartError(f'tension_stddev is {value!r}, allowed is 0 to {MAX_TENSION_STDDEV:g} N')
-    return float(value)
-
-
-def main(args: Sequence[str] | None = None) -> int:
-    """Run the node; the entry point of ``ros2 run tendon_statics estimator``."""
-    return run_node(Estimator, args)
+    def _on_reset(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        if self._tracker is None:
+            response.success = False
+            response.message = 'estimation is equilibrium, which remembers nothing to reset'
+        else:
+            self._tracker.reset(self._settings.initial_bend_angle)
+            response.success = True
+            response.message = f'the unit is at {self._settings.initial_bend_angle:.6g} rad'
+        return response

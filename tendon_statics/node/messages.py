@@ -3,18 +3,30 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
-from std_msgs.msg import Float64MultiArray, Header
+from std_msgs.msg import Float64MultiArray, Header, MultiArrayDimension, MultiArrayLayout
 
-from ..physics import Equilibrium, JointDesign, TensionError
+from ..physics import (
+    BendAngleError,
+    Equilibrium,
+    JointDesign,
+    TensionError,
+    TrackedState,
+    UnreachableError,
+    tensions_for,
+)
 
 __all__ = [
     'INTERFACES_MISSING',
     'Estimate',
     'Solve',
+    'SolveInverse',
     'estimate',
+    'fill_inverse_response',
     'fill_solve_response',
+    'intervals_array',
     'refuse_solve',
     'tensions_from_array',
     'unit_pose',
@@ -23,9 +35,9 @@ __all__ = [
 # The node works without the package nested in interfaces/, but offers less.
 try:
     from tendon_statics_interfaces.msg import Estimate
-    from tendon_statics_interfaces.srv import Solve
+    from tendon_statics_interfaces.srv import Solve, SolveInverse
 except ImportError as _error:
-    Estimate = Solve = None
+    Estimate = Solve = SolveInverse = None
     INTERFACES_MISSING = str(_error)
 else:
     INTERFACES_MISSING = ''
@@ -42,6 +54,20 @@ def tensions_from_array(message: Float64MultiArray) -> tuple[float, float]:
     if len(message.data) != 2:
         raise TensionError(f'{len(message.data)} values came, [tension_l, tension_s] is needed')
     return message.data[0], message.data[1]
+
+
+def intervals_array(intervals: Sequence[tuple[float, float]]) -> Float64MultiArray:
+    """Pairs of ends, row by row, with a layout that says so."""
+    count = len(intervals)
+    return Float64MultiArray(
+        layout=MultiArrayLayout(
+            dim=[
+                MultiArrayDimension(label='interval', size=count, stride=2 * count),
+                MultiArrayDimension(label='end', size=2, stride=2),
+            ]
+        ),
+        data=[end for interval in intervals for end in interval],
+    )
 
 
 def unit_pose(
@@ -67,27 +93,32 @@ def unit_pose(
     return message
 
 
-def estimate(equilibrium: Equilibrium, tension_stddev: float, header: Header) -> Estimate:
-    """Every field of a result in one message; NaN or False where it is not determined."""
-    forces = equilibrium.forces or (math.nan,) * 4
-    remainder = equilibrium.force_remainder or (math.nan,) * 2
-    angle_gradient = equilibrium.bend_angle_gradient or (math.nan,) * 2
-    pressure_gradient = equilibrium.pressure_gradient or (math.nan,) * 2
-    return Estimate(
+def estimate(
+    result: Equilibrium | TrackedState,
+    margin: float | None,
+    intervals: Sequence[tuple[float, float]],
+    tension_stddev: float,
+    header: Header,
+) -> Estimate:
+    """Everything that is known from one pair of tensions; NaN or False where it is not."""
+    forces = result.forces or (math.nan,) * 4
+    remainder = result.force_remainder or (math.nan,) * 2
+    angle_gradient = result.bend_angle_gradient or (math.nan,) * 2
+    pressure_gradient = result.pressure_gradient or (math.nan,) * 2
+    message = Estimate(
         header=header,
-        regime=equilibrium.regime.value,
-        tension_l=equilibrium.tension_l,
-        tension_s=equilibrium.tension_s,
-        bend_angle=_number(equilibrium.bend_angle),
-        bend_angle_stddev=_number(equilibrium.bend_angle_stddev(tension_stddev)),
-        pressure=_number(equilibrium.pressure),
-        pressure_stddev=_number(equilibrium.pressure_stddev(tension_stddev)),
-        normal_force=_number(equilibrium.normal_force),
-        root_count=equilibrium.root_count,
-        stable=bool(equilibrium.stable),
-        branch_consistent=bool(equilibrium.branch_consistent),
-        iterations=equilibrium.iterations,
-        residual=_number(equilibrium.residual),
+        regime=result.regime.value,
+        tension_l=result.tension_l,
+        tension_s=result.tension_s,
+        bend_angle=_number(result.bend_angle),
+        bend_angle_stddev=_number(result.bend_angle_stddev(tension_stddev)),
+        pressure=_number(result.pressure),
+        pressure_stddev=_number(result.pressure_stddev(tension_stddev)),
+        normal_force=_number(result.normal_force),
+        slip_margin=_number(margin),
+        admissible_angles=[end for interval in intervals for end in interval],
+        residual=math.nan,
+        branch_consistent=bool(result.branch_consistent),
         pressure_force_x=forces[0],
         pressure_force_z=forces[1],
         friction_force_x=forces[2],
@@ -99,6 +130,15 @@ def estimate(equilibrium: Equilibrium, tension_stddev: float, header: Header) ->
         pressure_by_tension_l=pressure_gradient[0],
         pressure_by_tension_s=pressure_gradient[1],
     )
+    if isinstance(result, Equilibrium):
+        message.angle_assured = result.bend_angle is not None
+        message.root_count = result.root_count
+        message.stable = bool(result.stable)
+        message.iterations = result.iterations
+        message.residual = _number(result.residual)
+    else:
+        message.angle_assured = result.angle_assured
+    return message
 
 
 def fill_solve_response(
@@ -120,6 +160,33 @@ def refuse_solve(response: Solve.Response, reason: str) -> Solve.Response:
     response.success = False
     response.message = reason
     response.bend_angle = response.pressure = response.bend_angle_stddev = math.nan
+    return response
+
+
+def fill_inverse_response(
+    response: SolveInverse.Response, design: JointDesign, request: SolveInverse.Request
+) -> SolveInverse.Response:
+    """Answer ``~/solve_inverse``, also with the reason for no result."""
+    try:
+        tensions = tensions_for(
+            design,
+            request.bend_angle,
+            pressure=request.pressure or None,  # 0 stands for not given
+            total_tension=request.total_tension or None,
+        )
+    except (UnreachableError, BendAngleError) as error:
+        response.message = str(error)
+    except TypeError:
+        response.message = (
+            f'pressure is {request.pressure!r} Pa and total_tension {request.total_tension!r} N: '
+            'give one of the two and leave the other 0'
+        )
+    else:
+        response.success = True
+        response.tension_l, response.tension_s = tensions
+        return response
+    response.success = False
+    response.tension_l = response.tension_s = math.nan
     return response
 
 

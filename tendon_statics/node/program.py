@@ -1,19 +1,16 @@
-"""What every program of this package that is a node does around its node."""
+"""The programs of this package that are nodes: start, run until a signal, end.
+
+It imports nothing of ROS at first, so that a signal is heard while that, the slow part, loads.
+"""
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
-from collections.abc import Callable, Sequence
-from pathlib import Path
-
-import rclpy
-from rclpy.clock import Clock, ClockType
-from rclpy.exceptions import ParameterException
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.node import Node
-
-from ..physics.errors import DesignError
+from collections.abc import Sequence
+from importlib import import_module
+from types import FrameType
 
 WAKE_PERIOD = 0.5
 """Longest time in s that a node goes on after a signal that it slept through."""
@@ -23,33 +20,69 @@ class StartError(Exception):
     """A node cannot start; the text is for the user."""
 
 
-def run_node(make_node: Callable[[], Node], args: Sequence[str] | None = None) -> int:
+def estimator(arguments: Sequence[str] | None = None) -> int:
+    """Run the estimator; the entry point of ``ros2 run tendon_statics estimator``."""
+    return _run('estimator', 'Estimator', arguments)
+
+
+def pulley_driver(arguments: Sequence[str] | None = None) -> int:
+    """Run the driver; the entry point of ``ros2 run tendon_statics pulley_driver``."""
+    return _run('pulley_driver', 'PulleyDriver', arguments)
+
+
+def _run(name: str, node_class: str, arguments: Sequence[str] | None) -> int:
     """Run a node until SIGINT, SIGTERM or shutdown of the context; return the exit code.
 
     A node that cannot start, say for a bad parameter, is one line on stderr and exit code 1.
     """
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, _exit_at_once)
+    try:
+        import rclpy
+        from rclpy.clock import Clock, ClockType
+        from rclpy.exceptions import ParameterException
+        from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+        from rclpy.utilities import remove_ros_args
+
+        make_node = getattr(import_module(f'{__package__}.{name}'), node_class)
+    except ImportError as error:
+        return _say(name, f'it needs ROS 2, and {error}')
+    arguments = sys.argv if arguments is None else arguments
+    try:
+        foreign = remove_ros_args(arguments)
+    except RuntimeError as error:  # RCLError is one
+        return _say(name, error)
+    if len(foreign) > 1:
+        return _say(
+            name,
+            f'{foreign[1]} is not known here: it takes ROS arguments only, and they follow '
+            f'--ros-args, say {name} --ros-args --params-file unit.yaml',
+        )
+
     # rclpy shuts its context down on both signals. A KeyboardInterrupt on top of that would come
     # at any later moment, also in the midst of tidying up.
     interrupted: list[int] = []
-    signal.signal(signal.SIGINT, lambda number, _frame: interrupted.append(number))
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda received, _frame: interrupted.append(received))
     try:
-        rclpy.init(args=args)
-    except RuntimeError as error:  # RCLError is one
-        return _say(error)
+        rclpy.init(args=arguments)
+    except RuntimeError as error:
+        return _say(name, error)
     node = None
     try:
         executor = SingleThreadedExecutor()
-        if not interrupted:
+        if interrupted:
+            return 0
+        try:
             node = make_node()
-            # rclpy wakes the executor on a signal and shuts the context down beside that. An
-            # executor that looks at the context in between waits again, and must not for ever.
-            node.create_timer(
-                WAKE_PERIOD, _do_nothing, clock=Clock(clock_type=ClockType.STEADY_TIME)
-            )
-            executor.add_node(node)
-            executor.spin()
-    except (DesignError, ParameterException, StartError) as error:
-        return _say(error)
+        except (StartError, ParameterException, RuntimeError, ValueError) as error:
+            # RuntimeError and ValueError are rclpy's own, of bad overrides and names.
+            return _say(name, error) if rclpy.ok() else 0
+        # rclpy wakes the executor on a signal and shuts the context down beside that. An
+        # executor that looks at the context in between waits again, and must not for ever.
+        node.create_timer(WAKE_PERIOD, _do_nothing, clock=Clock(clock_type=ClockType.STEADY_TIME))
+        executor.add_node(node)
+        executor.spin()
     except ExternalShutdownException:
         pass
     except Exception:
@@ -63,11 +96,15 @@ def run_node(make_node: Callable[[], Node], args: Sequence[str] | None = None) -
     return 0
 
 
+def _exit_at_once(_number: int, _frame: FrameType | None) -> None:
+    """End while there is nothing yet to tidy up, and imports are not to be interrupted."""
+    os._exit(0)
+
+
 def _do_nothing() -> None:
     pass
 
 
-def _say(error: Exception) -> int:
-    program = Path(sys.argv[0]).name
-    print(f'{program} cannot start: {" ".join(str(error).split())}', file=sys.stderr)
+def _say(name: str, error: object) -> int:
+    print(f'{name} cannot start: {" ".join(str(error).split())}', file=sys.stderr)
     return 1

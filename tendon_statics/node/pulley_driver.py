@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
@@ -11,7 +10,10 @@ from std_msgs.msg import Float64MultiArray
 
 from ..installed_files import installed_config
 from ..tension_file import TensionFileError, load_tensions
-from .program import StartError, run_node
+from .program import StartError
+
+MIN_RATE, MAX_RATE = 0.01, 10000.0
+"""Hz"""
 
 
 class PulleyDriver(Node):
@@ -26,8 +28,11 @@ class PulleyDriver(Node):
             'rate',
             10.0,
             '[Hz]: messages per second',
-            floating_point_range=[FloatingPointRange(from_value=0.01, to_value=10000.0)],
+            floating_point_range=[FloatingPointRange(from_value=MIN_RATE, to_value=MAX_RATE)],
+            dynamic_typing=True,  # so that 20 is as good as 20.0
         )
+        if not isinstance(rate, (int, float)) or not MIN_RATE <= rate <= MAX_RATE:
+            raise StartError(f'rate is {rate!r}, allowed is {MIN_RATE} to {MAX_RATE} Hz')
         self._loop = self._parameter('loop', True, 'whether to begin anew after the last row')
         self._awaited_subscribers = self._parameter(
             'awaited_subscribers',
@@ -51,15 +56,10 @@ class PulleyDriver(Node):
         if self._tensions.get_subscription_count() < self._awaited_subscribers:
             return
         self._awaited_subscribers = 0
-        self._tensions.publish(Float64MultiArray(data=self._rows[self._next]))
+        self._tensions.publish(Float64MultiArray(data=self._rows[self._next][:2]))
         self._next += 1
         if self._next == len(self._rows):
             self._next = 0
             if not self._loop:
                 self._timer.cancel()
                 self.get_logger().info(f'Played {len(self._rows)} rows')
-
-
-def main(args: Sequence[str] | None = None) -> int:
-    """Run the node; the entry point of ``ros2 run tendon_statics pulley_driver``."""
-    return run_node(PulleyDriver, args)

@@ -9,7 +9,7 @@ that is g(θ) ≤ 0 for slipping towards cable s, and the mirrored g(−θ) ≤ 
 
 from __future__ import annotations
 
-import math
+import numbers
 from itertools import pairwise
 
 from .design import JointDesign
@@ -106,15 +106,12 @@ def check_bend_angle(design: JointDesign, bend_angle: float) -> float:
         If it is not a number or lies beyond a stop.
     """
     stop = design.max_bend_angle
-    try:
-        angle = float(bend_angle)
-    except (TypeError, ValueError, OverflowError):
-        angle = math.nan
-    if not -stop <= angle <= stop:
+    is_number = isinstance(bend_angle, numbers.Real) and not isinstance(bend_angle, bool)
+    if not (is_number and -stop <= bend_angle <= stop):
         raise BendAngleError(
             f'bend_angle is {bend_angle!r} rad, allowed is {-stop:.6g} to {stop:.6g} rad'
         )
-    return angle
+    return float(bend_angle)
 
 
 def _angles_below_limit(design: JointDesign, tension_l: float, tension_s: float) -> list[Interval]:

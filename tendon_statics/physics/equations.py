@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from fractions import Fraction
 
 from .design import JointDesign
 
@@ -41,7 +42,7 @@ def normal_force_ratios(
     cable_arm = design.ball_radius + design.cable_offset
     moment_offset = (tension_s - tension_l) / total * cable_arm / resisting_arm
     moment_gain = weight * design.com_distance / resisting_arm
-    product = (1.0 - weight) * (1.0 + weight)
+    product = weight_excess(design, tension_l, tension_s) / total * (1.0 + weight)
     friction_weight = friction * weight
     friction_squared_product = friction * friction * product
     friction_excess = (friction - 1.0) * (friction + 1.0)
@@ -62,6 +63,15 @@ def normal_force_ratios(
         return moment_offset + moment_gain * sin_theta, force, root
 
     return ratios
+
+
+def weight_excess(design: JointDesign, tension_l: float, tension_s: float) -> float:
+    """T_l + T_s − W in N, without loss of digits where the tensions hardly exceed the weight."""
+    excess = tension_l + tension_s - design.weight
+    if excess > 0.01 * design.weight:
+        return excess
+    weight = Fraction(design.mass) * Fraction(design.gravity)
+    return float(Fraction(tension_l) + Fraction(tension_s) - weight)
 
 
 def residual(design: JointDesign, tension_l: float, tension_s: float, bend_angle: float) -> float:

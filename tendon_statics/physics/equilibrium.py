@@ -15,12 +15,13 @@ class Regime(str, Enum):
     EQUILIBRIUM = 'equilibrium'
     """The unit is on the verge of slipping at one angle, which is given."""
     HELD = 'held'
-    """Friction can hold the unit: at any angle, which tensions alone then do not determine, or,
-    for a tracker, at the angle where it was."""
+    """Friction keeps the unit from slipping towards the stronger cable at every angle from 0 to
+    the stop: tensions alone do not determine the angle. For a tracker: where it was."""
     SLIPPING = 'slipping'
     """The unit has slipped and friction holds it again, at its limit; only a tracker says so."""
     DRIVEN_TO_STOP = 'driven_to_stop'
-    """Friction cannot hold the unit at any angle; it slides to its mechanical stop."""
+    """At no angle from 0 to the stop can friction keep the unit from slipping towards the stronger
+    cable: it slides to the stop. Bent the other way it may be held; `admissible_angles` tells."""
     SLACK = 'slack'
     """A cable carries no tension, which is outside the model."""
 

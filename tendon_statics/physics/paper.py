@@ -21,12 +21,12 @@ PRESSURE = 405.6
 def identify_mass_and_offset(design: JointDesign) -> JointDesign:
     """Return the design with the mass and cable offset that give the published result.
 
-    With θ and p known, N = p C w is known, and the square sum of Eqs. (1) and (2) is a quadratic
+    With θ and p known, N = p C is known, and the square sum of Eqs. (1) and (2) is a quadratic
     in the weight, W² − 2 μ N sin φ W + (μ N)² − (T − N)² = 0. Its smaller root is the only one
     below T. Eq. (3) then gives δ.
     """
     total = TENSION_L + TENSION_S
-    normal_force = PRESSURE * design.contact_area
+    normal_force = PRESSURE * design.contact_length  # the paper's zone is 1 m deep
     friction = design.friction_coefficient * normal_force
     phi = design.contact_centre_angle + BEND_ANGLE
     weight = friction * math.sin(phi) - math.sqrt(

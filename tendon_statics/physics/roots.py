@@ -11,6 +11,16 @@ from .equations import normal_force_ratios
 BEND_ANGLE_TOLERANCE = 1e-10
 """Width in rad of the bracket at which the bisection ends; the paper's."""
 
+NEGLIGIBLE_WEIGHT = 1e-9
+"""Share of the tensions below which the weight moves g too little to determine an angle"""
+
+FLAT_WIDTH = 1e-8
+"""Width in rad of an interval in which the rounding of g hides its slope, if it got this narrow"""
+
+MOST_CUTS = 2000
+"""Intervals that are halved before the rest is taken as too flat to resolve; a few suffice for
+any unit but one made up to be flat"""
+
 
 class SlipEquation:
     """g(θ) = N_m(θ) − N_f(θ) = 0 for one design and one pair of tensions.
@@ -45,31 +55,41 @@ class SlipEquation:
     def brackets(self, low: float, high: float) -> list[tuple[float, float]]:
         """Ascending, disjoint intervals in [low, high] that hold one root each and all together.
 
-        A root at `low` itself comes as ``(low, low)``. Of two roots closer together than
-        `BEND_ANGLE_TOLERANCE` both may be missed: the equation only touches zero there.
-        `low` and `high` in rad, within ±π/2.
+        A root at `low` itself comes as ``(low, low)``. Where two roots merge, within about
+        1e-7 rad, rounding decides whether they are seen as two or as none.
+
+        Parameters
+        ----------
+        low, high : float
+            Angles in rad, within ±π/2.
         """
-        if self._moment_gain == 0.0 and self._friction_weight == 0.0:
-            return []  # Weightless: g is the same at every angle.
-        found = []
+        if max(abs(self._moment_gain), self._friction_weight) < NEGLIGIBLE_WEIGHT:
+            return []
         knots = self._quarter_turns(low, high)
         ends = [(angle, *self._ratios(angle)) for angle in knots]
-        if ends[0][1] == ends[0][2]:
-            found.append((low, low))
-        pending = list(pairwise(ends))[::-1]
+        found = [(low, low)] if ends[0][1] == ends[0][2] else []
+        pending = list(pairwise(ends))
+        unresolved: list[_Interval] = []
+        cuts = 0
+        # Level by level, so that at the limit what is left is of one width.
         while pending:
-            left, right = pending.pop()
-            angle_low, angle_high = left[0], right[0]
-            one_at_most = (
-                self._is_monotonic(left, right) or angle_high - angle_low < BEND_ANGLE_TOLERANCE
-            )
-            if one_at_most and _changes_sign(left, right):
-                found.append((angle_low, angle_high))
-            elif not one_at_most and _may_vanish(left, right):
-                middle = 0.5 * (angle_low + angle_high)
-                cut = (middle, *self._ratios(middle))
-                pending += [(cut, right), (left, cut)]
-        return found
+            level, pending = pending, []
+            for left, right in level:
+                if not _may_vanish(left, right):
+                    continue
+                if right[0] - left[0] < FLAT_WIDTH or cuts >= MOST_CUTS:
+                    unresolved.append((left, right))
+                elif self._is_monotonic(left, right):
+                    if _changes_sign(left, right):
+                        found.append((left[0], right[0]))
+                else:
+                    middle = 0.5 * (left[0] + right[0])
+                    cut = (middle, *self._ratios(middle))
+                    pending += [(left, cut), (cut, right)]
+                    cuts += 1
+        for cluster in _clusters(unresolved):
+            found += _brackets_in(cluster)
+        return sorted(found)
 
     def bisect(self, low: float, high: float) -> tuple[float, int]:
         """Halve a bracket down to `BEND_ANGLE_TOLERANCE`; return the root and the halvings.
@@ -126,6 +146,33 @@ class SlipEquation:
 
 _Point = tuple[float, float, float, float]
 """Angle, N_m / T, N_f / T and R / T."""
+_Interval = tuple[_Point, _Point]
+
+
+def _clusters(intervals: list[_Interval]) -> list[list[_Point]]:
+    """Join intervals that lie close together; return the points of each run, ascending."""
+    clusters: list[list[_Point]] = []
+    for left, right in sorted(intervals):
+        if clusters and left[0] - clusters[-1][-1][0] <= 10.0 * FLAT_WIDTH:
+            clusters[-1] += [left, right]
+        else:
+            clusters.append([left, right])
+    return clusters
+
+
+def _brackets_in(cluster: list[_Point]) -> list[tuple[float, float]]:
+    """Brackets where g is too flat to tell roots apart, and its sign may be rounding.
+
+    Opposite signs at the two ends are one root. With like signs there are two roots if g is of
+    the other sign anywhere between, and none if not.
+    """
+    first, last = cluster[0], cluster[-1]
+    if _changes_sign(first, last):
+        return [(first[0], last[0])]
+    for point in cluster[1:-1]:
+        if _changes_sign(first, point) and _changes_sign(point, last):
+            return [(first[0], point[0]), (point[0], last[0])]
+    return []
 
 
 def _changes_sign(left: _Point, right: _Point) -> bool:

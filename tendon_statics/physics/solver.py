@@ -7,7 +7,7 @@ import numbers
 
 from .contact import contact_at
 from .design import JointDesign
-from .equations import normal_force_ratios
+from .equations import normal_force_ratios, weight_excess
 from .equilibrium import Equilibrium, Regime, TensionGradient
 from .errors import TensionError
 from .roots import SlipEquation
@@ -19,8 +19,9 @@ MAX_TENSION = 1e9
 def solve(design: JointDesign, tension_l: float, tension_s: float) -> Equilibrium:
     """Solve the quasi-static equilibrium of one unit for a pair of cable tensions.
 
-    The corrected Eq. (4) is bisected on [0, θ_max] to 1e-10 rad. Tensions with T_l > T_s are the
-    mirror image. Of several roots the one nearest to 0 is returned, and all are counted.
+    The corrected Eq. (4) is bisected on [0, θ_max] to 1e-10 rad, on the side of the stronger
+    cable: tensions with T_l > T_s are the mirror image, equal ones count as pulling towards s.
+    Of several roots the one nearest to 0 is returned, and all are counted.
 
     Parameters
     ----------
@@ -85,7 +86,7 @@ def check_tensions(design: JointDesign, tension_l: float, tension_s: float) -> t
             raise TensionError(f'{name} is {tension!r} N, allowed is 0 to {MAX_TENSION:g} N')
         checked.append(tension)
     total = sum(checked)
-    if min(checked) > 0.0 and not total > design.weight:
+    if min(checked) > 0.0 and not weight_excess(design, *checked) > 0.0:
         raise TensionError(
             f'tension_l + tension_s is {checked[0]!r} + {checked[1]!r} = {total:.6g} N, '
             f"which must exceed the unit's weight of {design.weight:.6g} N"
@@ -177,4 +178,8 @@ def gradients_at_limit(
     near = (side * angle_by_near, (by_total + by_angle * angle_by_near) / design.contact_area)
     far = (side * angle_by_far, (by_total + by_angle * angle_by_far) / design.contact_area)
     by_l, by_s = (far, near) if side > 0.0 else (near, far)
-    return TensionGradient(by_l[0], by_s[0]), TensionGradient(by_l[1], by_s[1])
+    angle_gradient = TensionGradient(by_l[0], by_s[0])
+    pressure_gradient = TensionGradient(by_l[1], by_s[1])
+    if not all(map(math.isfinite, (*angle_gradient, *pressure_gradient))):
+        return None, None
+    return angle_gradient, pressure_gradient

@@ -31,7 +31,7 @@ class TrackedState(NamedTuple):
     """False once a cable has been slack, until a stop or a reset: the angle is then where the unit
     was before, which is where it is only if it has not moved meanwhile"""
     slip_margin: float | None = None
-    """Share of the friction limit that is used, before a slip: beyond ±1 the unit slipped"""
+    """`slip_margin` at the angle: ±1 right after a slip, beyond that only against the stop"""
     pressure: float | None = None
     """p in Pa; None where not `branch_consistent`"""
     normal_force: float | None = None
@@ -133,6 +133,7 @@ class StickSlipTracker:
             regime = Regime.HELD
         else:
             regime = self._slip(tension_l, tension_s, math.copysign(1.0, margin))
+            margin = margin_at(self._design, tension_l, tension_s, self._bend_angle)
         return self._state(regime, tension_l, tension_s, margin)
 
     def _slip(self, tension_l: float, tension_s: float, side: float) -> Regime:
