@@ -50,7 +50,8 @@ class Program:
     """A program of the package as a process of its own."""
 
     def __init__(self, command: Sequence[str | Path]) -> None:
-        self._output = tempfile.TemporaryFile('w+')  # noqa: SIM115  closed in running_command
+        # Appending, since the position in the file is shared with the program.
+        self._output = tempfile.TemporaryFile('a+')  # noqa: SIM115  closed in running_command
         self.process = subprocess.Popen(command, stdout=self._output, stderr=subprocess.STDOUT)
 
     def output(self) -> str:

@@ -87,13 +87,13 @@ class Estimator(Node):
             self._estimate = self._publisher(messages.Estimate, '~/estimate')
             self.create_service(messages.Solve, '~/solve', self._on_solve)
             self.create_service(messages.SolveInverse, '~/solve_inverse', self._on_solve_inverse)
-        # Last, since every declaration fires them too.
-        self.add_on_set_parameters_callback(self._check_parameters)
-        self.add_post_set_parameters_callback(self._take_parameters)
         self._tensions = self._subscription(Float64MultiArray, 'tensions', self._on_tensions)
         if self._tracker is not None:
             self._subscription(Float64, 'measured_bend_angle', self._on_measured_bend_angle)
         warn_of_unknown_parameters(self)
+        # Last, since every declaration fires them too.
+        self.add_on_set_parameters_callback(self._check_parameters)
+        self.add_post_set_parameters_callback(self._take_parameters)
         estimation = 'equilibrium' if self._tracker is None else 'tracking'
         self.get_logger().info(f'Ready: {estimation} from {self._tensions.topic_name}')
 

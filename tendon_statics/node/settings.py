@@ -85,7 +85,12 @@ def declare_settings(node: Node) -> Settings:
         for parameter in design_parameters()
         if parameter.name not in given and parameter.default is None
     ]
-    if given and left_out:
+    if not given:
+        node.get_logger().warning(
+            "No design.* parameters came, so this is the paper's preliminary design, two values "
+            'of which are identified, not measured'
+        )
+    elif left_out:
         node.get_logger().warning(
             'The parameters give a part of the design only; taken from the preliminary design: '
             + ', '.join(

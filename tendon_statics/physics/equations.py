@@ -42,8 +42,8 @@ def normal_force_ratios(
     cable_arm = design.ball_radius + design.cable_offset
     moment_offset = (tension_s - tension_l) / total * cable_arm / resisting_arm
     moment_gain = weight * design.com_distance / resisting_arm
-    product = weight_excess(design, tension_l, tension_s) / total * (1.0 + weight)
-    friction_weight = friction * weight
+    excess = weight_excess(design, tension_l, tension_s) / total
+    product = excess * (1.0 + weight)
     friction_squared_product = friction * friction * product
     friction_excess = (friction - 1.0) * (friction + 1.0)
     sin_beta = math.sin(design.contact_centre_angle)
@@ -55,8 +55,11 @@ def normal_force_ratios(
         cos_theta = cos(bend_angle)
         sin_phi = sin_beta * cos_theta + cos_beta * sin_theta
         cos_phi = cos_beta * cos_theta - sin_beta * sin_theta
-        b = 1.0 - friction_weight * sin_phi
-        lift = weight - friction * sin_phi
+        # 1 − μ sin φ, in terms that do not cancel; B and W − μ T sin φ both follow from it.
+        below_one = cos_phi * cos_phi / (1.0 + sin_phi) if sin_phi > 0.0 else 1.0 - sin_phi
+        spare = 1.0 - friction + friction * below_one
+        b = excess + weight * spare
+        lift = spare - excess
         root = sqrt(lift * lift + friction_squared_product * cos_phi * cos_phi)
         # B < 0 needs μ > 1; there the other form of the same root is the one that does not cancel.
         force = product / (b + root) if b > 0.0 else (root - b) / friction_excess
