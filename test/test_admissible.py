@@ -35,7 +35,7 @@ def oracle(design: JointDesign, tension_l: float, tension_s: float, bend_angle: 
 
 
 @given(cases())
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 def test_the_intervals_are_those_of_the_oracle(case):
     design, tension_l, tension_s = case
     assume(abs(design.friction_coefficient - 1.0) > 1e-3)
@@ -60,7 +60,7 @@ def test_the_margin_is_within_one_just_where_the_angle_is_admissible(case, share
     design, tension_l, tension_s = case
     angle = share * design.max_bend_angle
     margin = slip_margin(design, tension_l, tension_s, angle)
-    assume(abs(abs(margin) - 1.0) > 1e-12)
+    assume(abs(abs(margin) - 1.0) > 1e-11)
     intervals = admissible_angles(design, tension_l, tension_s)
     assert any(low <= angle <= high for low, high in intervals) == (abs(margin) < 1.0)
 

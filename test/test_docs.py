@@ -30,12 +30,11 @@ def test_figures_are_shown_somewhere(figure):
 
 def test_the_readme_names_everything_the_node_has():
     """Asked of the running node: its topics, services and parameters."""
-    from ros_programs import Listener, spinning, wait_for
+    from ros_programs import Listener, spinning
 
     with spinning(Listener) as listener, listener.estimator('-p', 'estimation:=tracking'):
         own = '/estimator/'
-        # Names of nodes are found out later than their topics.
-        wait_for('the name', lambda: 'estimator' in listener.get_node_names())
+        listener.wait_for_node('estimator')
         published = listener.get_publisher_names_and_types_by_node('estimator', '/')
         served = listener.get_service_names_and_types_by_node('estimator', '/')
     parameter_services = ('parameter', 'type_description')

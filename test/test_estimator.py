@@ -505,6 +505,7 @@ def test_without_memory_there_is_nothing_to_reset(listener):
         answer = listener.reset()
         assert not answer.success
         assert 'estimation is equilibrium' in answer.message
+        listener.wait_for_node('estimator')
         assert 'measured_bend_angle' not in str(
             listener.get_subscriber_names_and_types_by_node('estimator', '/')
         )
@@ -548,6 +549,7 @@ def test_without_the_interfaces_it_runs_and_says_how_to_build_them(listener):
         answer = listener.solve_latest()
         assert answer.success
         assert json.loads(answer.message)['regime'] == 'equilibrium'
+        listener.wait_for_node('estimator')
         services = [
             name for name, _ in listener.get_service_names_and_types_by_node('estimator', '/')
         ]
@@ -562,6 +564,7 @@ def test_inputs_are_best_effort_outputs_reliable_and_both_can_be_overridden(list
         return info.qos_profile.reliability
 
     with listener.estimator():
+        listener.wait_for_node('estimator')
         taken = listener.get_subscriptions_info_by_topic('/tensions')
         assert reliability(taken) == ReliabilityPolicy.BEST_EFFORT
         for topic in TOPICS:
@@ -573,6 +576,7 @@ def test_inputs_are_best_effort_outputs_reliable_and_both_can_be_overridden(list
             'the estimator that went to be forgotten',
             lambda: len(listener.get_subscriptions_info_by_topic('/tensions')) == 1,
         )
+        listener.wait_for_node('estimator')
         taken = listener.get_subscriptions_info_by_topic('/tensions')
         assert reliability(taken) == ReliabilityPolicy.RELIABLE
 
@@ -618,7 +622,4 @@ def test_every_name_can_be_remapped(listener):
     moved = (f'{own}:=/estimator/{own[2:]}' for own in (f'~/{topic}' for topic in TOPICS))
     with listener.estimator(*arguments, *(part for rule in moved for part in ('-r', rule))):
         assert listener.answer(*SLIPPING) == 'equilibrium'
-        # Names of nodes are found out later than their topics.
-        wait_for(
-            'the name', lambda: ('joint_1', '/left') in listener.get_node_names_and_namespaces()
-        )
+        listener.wait_for_node('joint_1', '/left')

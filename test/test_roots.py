@@ -12,7 +12,7 @@ from tendon_statics.physics.roots import BEND_ANGLE_TOLERANCE, SlipEquation
 
 
 @given(cases())
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_brackets_hold_every_sign_change_of_a_fine_grid(case):
     """On the whole range, both sides of zero."""
     design, tension_l, tension_s = case

@@ -92,7 +92,7 @@ def test_400_random_designs_agree_with_the_quartic():
 
 
 @given(cases())
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_drawn_designs_agree_with_the_quartic(case):
     design, tension_l, tension_s = case
     expected = solve_quartic(design, tension_l, tension_s)
@@ -240,7 +240,7 @@ def test_friction_above_one_and_a_heavy_unit_keep_their_digits():
 
 
 @given(cases(), st.floats(-12.0, -1.0), st.floats(0.1, 0.9))
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 def test_tensions_that_hardly_exceed_the_weight_keep_their_digits(case, exponent, share):
     design, _, _ = case
     total = design.weight * (1.0 + 10.0**exponent)

@@ -223,6 +223,10 @@ class Listener(Node):
         for store in self._stores:
             store.clear()
 
+    def wait_for_node(self, name: str, namespace: str = '/') -> None:
+        """Wait until a node is known by name, which is later than its topics are."""
+        wait_for(name, lambda: (name, namespace) in self.get_node_names_and_namespaces())
+
     def publish(self, *data: float) -> None:
         """Publish one message of tensions."""
         self.tensions.publish(Float64MultiArray(data=[float(value) for value in data]))

@@ -148,7 +148,13 @@ class Estimator(Node):
     def _take_parameters(self, parameters: list[Parameter]) -> None:
         self._settings = self._settings.changed(parameters)
         if self._tracker is not None:
+            before = self._tracker.bend_angle
             self._tracker.change_design(self._settings.design)
+            if self._tracker.bend_angle != before:
+                self.get_logger().warning(
+                    f'The unit was at {before:.6g} rad, beyond the new stop; it is now taken to '
+                    f'be at {self._tracker.bend_angle:.6g} rad'
+                )
         changes = ', '.join(f'{parameter.name} = {parameter.value!r}' for parameter in parameters)
         self.get_logger().info(f'Changed: {changes}')
 
@@ -260,6 +266,7 @@ class Estimator(Node):
                 'pressure_stddev': result.pressure_stddev(stddev),
                 'age': (self.get_clock().now() - stamp).nanoseconds * 1e-9,
                 'invalid_since': self._invalid_since_latest,
+                'rejected_corrections': self._rejected_corrections,
             },
             allow_nan=False,
         )

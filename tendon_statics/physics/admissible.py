@@ -9,6 +9,7 @@ that is g(θ) ≤ 0 for slipping towards cable s, and the mirrored g(−θ) ≤ 
 
 from __future__ import annotations
 
+import math
 import numbers
 from itertools import pairwise
 
@@ -19,6 +20,9 @@ from .roots import SlipEquation
 from .solver import check_tensions
 
 Interval = tuple[float, float]
+
+ROUNDING = 1e-12
+"""Excess of a margin over 1 that may be rounding"""
 
 
 def admissible_angles(design: JointDesign, tension_l: float, tension_s: float) -> list[Interval]:
@@ -74,12 +78,17 @@ def slip_margin(
 
 
 def margin_at(design: JointDesign, tension_l: float, tension_s: float, bend_angle: float) -> float:
-    """`slip_margin` of values that have been checked."""
+    """`slip_margin` of values that have been checked.
+
+    A root is exact to the rounding of the margin, so what exceeds 1 by that alone is taken for 1:
+    the ends of the admissible intervals are held.
+    """
     ratios = normal_force_ratios(design, tension_l, tension_s)
     moment, force, _ = ratios(bend_angle)
     if moment < 0.0:
         _, force, _ = ratios(-bend_angle)
-    return moment / force
+    margin = moment / force
+    return math.copysign(1.0, margin) if 1.0 < abs(margin) <= 1.0 + ROUNDING else margin
 
 
 def check_taut(design: JointDesign, tension_l: float, tension_s: float) -> Interval:

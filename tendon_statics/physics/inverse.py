@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+import numbers
 from typing import NamedTuple
 
 from .admissible import check_bend_angle
 from .design import JointDesign
 from .equations import normal_force_ratios
+from .equilibrium import Regime
 from .errors import TensionError, UnreachableError
+from .roots import NEGLIGIBLE_WEIGHT
 from .solver import solve
 
 ROUND_TRIP_TOLERANCE = 1e-9
@@ -32,7 +35,7 @@ def tensions_for(
     """Return the tensions at which the unit is about to slip at a given angle.
 
     Eqs. (1) to (3) solved for the tensions, in closed form. `solve` of the result gives the
-    angle back, to 1e-9 rad.
+    angle back, to 1e-9 rad; at 0 and at a stop it is aimed at 5e-10 rad inside the range.
 
     Parameters
     ----------
@@ -60,6 +63,8 @@ def tensions_for(
     inset = 0.5 * ROUND_TRIP_TOLERANCE
     angle = min(max(abs(bend_angle), inset), design.max_bend_angle - inset)
     friction, weight, r = design.friction_coefficient, design.weight, design.ball_radius
+    pressure = _checked_number('pressure', pressure)
+    total_tension = _checked_number('total_tension', total_tension)
     if pressure is not None:
         if not 0.0 < pressure < math.inf:
             raise UnreachableError(f'pressure is {pressure!r} Pa, which must be above 0 Pa')
@@ -91,6 +96,17 @@ def tensions_for(
     return tensions
 
 
+def _checked_number(name: str, value: float | None) -> float | None:
+    if value is None:
+        return None
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise UnreachableError(f'{name} is {value!r}, which is not a number')
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
+
+
 def _check_round_trip(design: JointDesign, tensions: Tensions, bend_angle: float) -> None:
     """Refuse tensions that `solve` takes for something else."""
     asked = (
@@ -101,9 +117,15 @@ def _check_round_trip(design: JointDesign, tensions: Tensions, bend_angle: float
         answer = solve(design, *tensions)
     except TensionError as error:
         raise UnreachableError(str(error)) from None
-    if answer.bend_angle is None:
+    if design.weight < NEGLIGIBLE_WEIGHT * sum(tensions):
+        raise UnreachableError(
+            f"the unit's weight of {design.weight:.6g} N is next to nothing beside "
+            f'{sum(tensions):.6g} N of tension, so that no angle is determined'
+        )
+    if answer.regime is Regime.HELD or answer.bend_angle is None:
         raise UnreachableError(
             f'{asked}: its weight, not the stronger cable, drives it ({answer.regime})'
         )
-    if not abs(answer.bend_angle - bend_angle) <= ROUND_TRIP_TOLERANCE:
+    missed = abs(answer.bend_angle - bend_angle) > ROUND_TRIP_TOLERANCE
+    if missed or answer.regime is Regime.DRIVEN_TO_STOP:
         raise UnreachableError(f'{asked}: it also is at {answer.bend_angle:.6g} rad')

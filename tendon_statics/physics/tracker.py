@@ -15,6 +15,9 @@ from .solver import check_tensions, gradients_at_limit
 
 NO_GRADIENT = TensionGradient(0.0, 0.0)
 
+STEPS = 32
+"""Into which the way between two pairs of tensions is cut where its end alone may mislead"""
+
 
 class TrackedState(NamedTuple):
     """Where a tracked unit is, and what holds it there. What is not determined is None."""
@@ -41,7 +44,8 @@ class TrackedState(NamedTuple):
     branch_consistent: bool | None = None
     """Whether F sin φ > W, so that Eq. (2) asks for the root taken (N < T)"""
     bend_angle_gradient: TensionGradient | None = None
-    """∂θ/∂T in rad/N of the slip that brought the unit here; None where that is infinite"""
+    """∂θ/∂T in rad/N of the slip that brought the unit here; None where that is infinite, or the
+    angle not assured"""
     pressure_gradient: TensionGradient | None = None
     """∂p/∂T in Pa/N"""
 
@@ -70,7 +74,8 @@ class StickSlipTracker:
     The unit stays where it is, to the last bit, for as long as friction can hold it there.
     Otherwise it slips in the direction it is driven to the next angle at which friction can, or
     to its stop. There is no smoothing and no time step, so that a constant load never makes it
-    creep.
+    creep. A change of tensions that would slip it, and take it back, between two updates is not
+    seen.
 
     Parameters
     ----------
@@ -109,12 +114,20 @@ class StickSlipTracker:
         self._bend_angle = check_bend_angle(self._design, bend_angle)
         self._gradient: TensionGradient | None = NO_GRADIENT
         self._assured = True
+        self._tensions: tuple[float, float] | None = None
 
     def change_design(self, design: JointDesign) -> None:
-        """Go on with another design, from the same angle or from its nearer stop."""
+        """Go on with another design, from the same angle.
+
+        A unit beyond the new stop is put there, and its angle is then not assured.
+        """
         stop = design.max_bend_angle
-        self._bend_angle = min(max(self._bend_angle, -stop), stop)
+        if abs(self._bend_angle) > stop:
+            self._bend_angle = math.copysign(stop, self._bend_angle)
+            self._assured = False
+            self._gradient = None
         self._design = design
+        self._tensions = None
 
     def update(self, tension_l: float, tension_s: float) -> TrackedState:
         """Take a new pair of tensions in N; return where the unit is then.
@@ -127,13 +140,20 @@ class StickSlipTracker:
         tension_l, tension_s = check_tensions(self._design, tension_l, tension_s)
         if tension_l == 0.0 or tension_s == 0.0:
             self._assured = False
+            self._gradient = None
+            self._tensions = None
             return TrackedState(Regime.SLACK, tension_l, tension_s, angle_assured=False)
+        regime = Regime.HELD
         margin = margin_at(self._design, tension_l, tension_s, self._bend_angle)
-        if abs(margin) <= 1.0:
-            regime = Regime.HELD
-        else:
-            regime = self._slip(tension_l, tension_s, math.copysign(1.0, margin))
+        if abs(margin) > 1.0:
+            for pair in self._way(tension_l, tension_s, math.copysign(1.0, margin)):
+                margin = margin_at(self._design, *pair, self._bend_angle)
+                if abs(margin) > 1.0:
+                    regime = self._slip(*pair, math.copysign(1.0, margin))
             margin = margin_at(self._design, tension_l, tension_s, self._bend_angle)
+            if regime is Regime.DRIVEN_TO_STOP and abs(margin) <= 1.0:
+                regime = Regime.SLIPPING  # driven there on the way, and held now
+        self._tensions = (tension_l, tension_s)
         return self._state(regime, tension_l, tension_s, margin)
 
     def _slip(self, tension_l: float, tension_s: float, side: float) -> Regime:
@@ -156,20 +176,40 @@ class StickSlipTracker:
         return Regime.SLIPPING
 
     def _landing(self, behind: float, ahead: float, start: float) -> float | None:
-        """First angle from `start` upwards at which friction holds; None if there is none.
-
-        A root is exact to a few units in the last place, and may lie that far on the wrong side.
-        The unit is put where the margin says that it is held, so that it then stays there.
-        """
+        """First angle from `start` upwards at which friction holds; None if there is none."""
         for low, high in admissible_angles(self._design, behind, ahead):
-            angle = max(low, start)
-            step = _SMALLEST_STEP
-            while angle <= high:
-                if margin_at(self._design, behind, ahead, angle) <= 1.0:
-                    return angle
-                angle += step
-                step *= 2.0
+            if high > start:
+                return max(low, start)
         return None
+
+    def _way(self, tension_l: float, tension_s: float, side: float) -> list[tuple[float, float]]:
+        """Tensions at which to look where the unit slips to, from the last pair to this one.
+
+        If the admissible angles only get fewer on the way, looking at its end is enough: what
+        holds the unit there would not have been passed by before. That is so where the slip
+        function grows, ∂g = (r + δ) / (μ r) dΔT − (T − N_f) / R dT ≥ 0. Otherwise an interval may
+        open ahead of a unit that has gone past, so tensions in between are looked at too, taken to
+        change in proportion.
+        """
+        new = (tension_l, tension_s)
+        if self._tensions is None:
+            return [new]
+        old, design = self._tensions, self._design
+        change = [after - before for before, after in zip(old, new, strict=True)]
+        lever = (design.ball_radius + design.cable_offset) / (
+            design.friction_coefficient * design.ball_radius
+        )
+        pull = lever * side * (change[1] - change[0])
+        for pair in (old, new):
+            ratios = normal_force_ratios(design, *pair)
+            for index in range(-4, 5):
+                _, force, root = ratios(0.25 * index * design.max_bend_angle)
+                if root * pull < (1.0 - force) * sum(change):
+                    return [
+                        (old[0] + share * change[0], old[1] + share * change[1])
+                        for share in (step / STEPS for step in range(1, STEPS))
+                    ] + [new]
+        return [new]
 
     def _state(
         self, regime: Regime, tension_l: float, tension_s: float, margin: float
@@ -224,7 +264,3 @@ class StickSlipTracker:
             bend_angle_gradient=self._gradient,
             pressure_gradient=pressure_gradient if known else None,
         )
-
-
-_SMALLEST_STEP = 2.0**-60
-"""First step in rad from a root to the side where it holds; below the rounding of most angles"""
