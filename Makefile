@@ -7,8 +7,7 @@ SHELL := bash
 PYTHON ?=
 run := set -euo pipefail; . tools/env.bash;
 
-sources := package.xml setup.py setup.cfg colcon.pkg colcon_defaults.yaml resource \
-  tendon_statics $(shell find tendon_statics config launch resource interfaces -type d -not -name __pycache__) \
+sources := package.xml setup.py setup.cfg colcon.pkg colcon_defaults.yaml \
   $(shell find tendon_statics config launch resource interfaces -type f \
     -not -path '*/__pycache__/*' -not -name '*.swp')
 
