@@ -27,15 +27,19 @@ def design_from(options: argparse.Namespace) -> JointDesign:
     return load_design(options.design or default_design_path())
 
 
-def add_tension_options(parser: argparse.ArgumentParser) -> None:
-    """Add ``--tension-l N`` and ``--tension-s N``, both required."""
-    for name in ('l', 's'):
+def add_tension_options(
+    parser: argparse.ArgumentParser, defaults: tuple[float, float] | None = None
+) -> None:
+    """Add ``--tension-l N`` and ``--tension-s N``, required unless there are defaults."""
+    for name, default in zip(('l', 's'), defaults or (None, None), strict=True):
         parser.add_argument(
             f'--tension-{name}',
             type=float,
-            required=True,
+            default=default,
+            required=default is None,
             metavar='N',
-            help=f'tension of cable {name} in N',
+            help=f'tension of cable {name} in N'
+            + ('' if default is None else '; default: %(default)s'),
         )
 
 

@@ -41,22 +41,10 @@ def _published(design: JointDesign) -> str:
 
 def _band(design: JointDesign) -> str:
     """Tensions of cable s at which the regime changes, that of cable l being the paper's."""
-
-    def change(regime: Regime, low: float, high: float) -> float:
-        """Largest tension of the regime, which is the one at `low` and not the one at `high`."""
-        while high - low > 1e-9:
-            middle = 0.5 * (low + high)
-            if solve(design, paper.TENSION_L, middle).regime is regime:
-                low = middle
-            else:
-                high = middle
-        return low
-
     published = solve(design, paper.TENSION_L, paper.TENSION_S)
     if published.regime is not Regime.EQUILIBRIUM:
         return f'With this design the published tensions give no angle: {published.regime}.'
-    lower = change(Regime.HELD, paper.TENSION_L, paper.TENSION_S)
-    upper = change(Regime.EQUILIBRIUM, paper.TENSION_S, 10.0 * paper.TENSION_S)
+    lower, upper = paper.equilibrium_band(design)
     return markdown_table(
         ('T_s at T_l = 1 N', 'regime'),
         [

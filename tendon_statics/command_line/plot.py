@@ -19,7 +19,7 @@ from ..physics import (
     solve,
 )
 from .figures import BLUE, FORMATS, GREEN, ORANGE, VERMILION, figure
-from .options import UsageError, add_design_option, design_from
+from .options import UsageError, add_design_option, add_tension_options, design_from
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,14 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     figures = parser.add_subparsers(dest='figure', metavar='FIGURE', required=True)
     for name, (description, _) in FIGURES.items():
         figure_parser = figures.add_parser(name, help=description, description=description)
-        for cable, tension in (('l', paper.TENSION_L), ('s', paper.TENSION_S)):
-            figure_parser.add_argument(
-                f'--tension-{cable}',
-                type=float,
-                default=tension,
-                metavar='N',
-                help=f'tension of cable {cable} in N; default: %(default)s',
-            )
+        add_tension_options(figure_parser, defaults=(paper.TENSION_L, paper.TENSION_S))
         add_design_option(figure_parser)
         figure_parser.add_argument(
             '--output',

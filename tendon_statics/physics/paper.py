@@ -9,6 +9,8 @@ from enum import Enum
 
 from .contact import contact_coefficients
 from .design import JointDesign
+from .equilibrium import Regime
+from .solver import solve
 
 TENSION_L, TENSION_S = 1.0, 2.0
 """Published input, N"""
@@ -88,3 +90,25 @@ def moment_pressure(
     friction_square = arc.friction_x**2 + arc.friction_z**2
     resisting_arm = design.friction_coefficient * design.ball_radius
     return (cables + weight) / (resisting_arm * math.sqrt(friction_square) * design.contact_width)
+
+
+def equilibrium_band(design: JointDesign) -> tuple[float, float]:
+    """Return the tensions of cable s, in N, between which there is a root at the published T_l.
+
+    For a design with a root in the published case.
+    """
+
+    def last(regime: Regime, low: float, high: float) -> float:
+        """Largest tension with the regime, which `low` has and `high` has not."""
+        while high - low > 1e-9:
+            middle = 0.5 * (low + high)
+            if solve(design, TENSION_L, middle).regime is regime:
+                low = middle
+            else:
+                high = middle
+        return low
+
+    return (
+        last(Regime.HELD, TENSION_L, TENSION_S),
+        last(Regime.EQUILIBRIUM, TENSION_S, 10.0 * TENSION_S),
+    )

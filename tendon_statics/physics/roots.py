@@ -43,14 +43,14 @@ class SlipEquation:
         self._friction_weight = design.friction_coefficient * weight
 
     def residual(self, bend_angle: float) -> float:
-        """G in N at an angle in rad."""
+        """Return g in N at an angle in rad."""
         moment, force, _ = self._ratios(bend_angle)
         return self._total * (moment - force)
 
     def slope(self, bend_angle: float) -> float:
         """∂g/∂θ in N/rad; not finite at the kink that N_f has where R = 0."""
         _, force, root = self._ratios(bend_angle)
-        return self._total * math.cos(bend_angle) * self._slope_sign(bend_angle, force, root)
+        return self._total * math.cos(bend_angle) * self._scaled_slope(bend_angle, force, root)
 
     def brackets(self, low: float, high: float) -> list[tuple[float, float]]:
         """Ascending, disjoint intervals in [low, high] that hold one root each and all together.
@@ -120,8 +120,8 @@ class SlipEquation:
         turns = (0.0, -self._beta, 0.5 * math.pi - self._beta, math.pi - self._beta)
         return [low, *sorted(angle for angle in set(turns) if low < angle < high), high]
 
-    def _slope_sign(self, bend_angle: float, force: float, root: float) -> float:
-        """(∂g/∂θ) / (T cos θ): the slope's sign, with cos φ / cos θ as one monotone factor."""
+    def _scaled_slope(self, bend_angle: float, force: float, root: float) -> float:
+        """(∂g/∂θ) / (T cos θ): of the slope's sign, with cos φ / cos θ as a factor."""
         return self._moment_gain - self._friction_slope(force, root) * self._direction(bend_angle)
 
     def _friction_slope(self, force: float, root: float) -> float:
@@ -129,7 +129,7 @@ class SlipEquation:
         return self._friction_weight * force / root if root > 0.0 else math.inf
 
     def _direction(self, bend_angle: float) -> float:
-        """Cos φ / cos θ = cos β − sin β tan θ, falling in θ."""
+        """Return cos φ / cos θ = cos β − sin β tan θ, which falls with θ."""
         return math.cos(self._beta) - math.sin(self._beta) * math.tan(bend_angle)
 
     def _is_monotonic(self, left: _Point, right: _Point) -> bool:
