@@ -33,7 +33,7 @@ def test_it_plays_every_row_once_in_order(played):
     with Program.running(
         'pulley_driver', '--ros-args', *(part for a in arguments for part in ('-p', a))
     ) as program:
-        wait_for('the last row', lambda: 'Played' in program.output())
+        wait_for('the last row', lambda: 'Sent: ' in program.output())
         rows = [row[:2] for row in load_tensions(installed_config('demo_tensions.csv'))]
         wait_for('every row', lambda: len(played) == len(rows))
         assert played == rows
