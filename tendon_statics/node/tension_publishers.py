@@ -1,11 +1,13 @@
-"""How motor drivers publish tensions: one class for each kind that the estimator takes."""
+"""How motor drivers publish tensions: one class for each kind that the estimator takes.
+
+Each fills one and the same message again and again, which is most of the speed.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Protocol
 
-from builtin_interfaces.msg import Time
 from geometry_msgs.msg import WrenchStamped
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
@@ -33,6 +35,7 @@ class ArrayPublisher:
 
     def __init__(self, node: Node) -> None:
         self._tensions = node.create_publisher(Float64MultiArray, 'tensions', DEPTH)
+        self._message = Float64MultiArray()
 
     def subscription_count(self) -> int:
         """Subscribers on ``tensions``."""
@@ -40,9 +43,9 @@ class ArrayPublisher:
         return count
 
     def publish(self, raw: Sequence[float], _stamp: int, missing: int | None) -> int:
-        """Publish one message."""
-        data = [value for cable, value in enumerate(raw) if cable != missing]
-        self._tensions.publish(Float64MultiArray(data=data))
+        """Publish one message, shorter by the value that is missing."""
+        self._message.data = [value for cable, value in enumerate(raw) if cable != missing]
+        self._tensions.publish(self._message)
         return 1
 
 
@@ -52,6 +55,7 @@ class JointStatePublisher:
     def __init__(self, node: Node, cable_names: Sequence[str]) -> None:
         self._tensions = node.create_publisher(JointState, 'tensions', DEPTH)
         self._cable_names = list(cable_names)
+        self._message = JointState()
 
     def subscription_count(self) -> int:
         """Subscribers on ``tensions``."""
@@ -64,7 +68,10 @@ class JointStatePublisher:
         if missing is not None:
             del effort[missing]
             names = names[1:] if missing == 0 else names
-        self._tensions.publish(JointState(header=_header(stamp), name=names, effort=effort))
+        _put_stamp(self._message.header, stamp)
+        self._message.name = names
+        self._message.effort = effort
+        self._tensions.publish(self._message)
         return 1
 
 
@@ -77,6 +84,7 @@ class WrenchPairPublisher:
             for topic in ('tension_l', 'tension_s')
         ]
         self._component = 'z' if component == 'norm' else component
+        self._message = WrenchStamped()
 
     def subscription_count(self) -> int:
         """Subscribers on that of the two topics which has fewer."""
@@ -84,16 +92,13 @@ class WrenchPairPublisher:
 
     def publish(self, raw: Sequence[float], stamp: int, missing: int | None) -> int:
         """Publish two messages, or one if one is missing."""
-        sent = 0
+        _put_stamp(self._message.header, stamp)
         for cable, (publisher, value) in enumerate(zip(self._cables, raw, strict=True)):
             if cable != missing:
-                message = WrenchStamped(header=_header(stamp))
-                setattr(message.wrench.force, self._component, value)
-                publisher.publish(message)
-                sent += 1
-        return sent
+                setattr(self._message.wrench.force, self._component, value)
+                publisher.publish(self._message)
+        return 2 if missing is None else 1
 
 
-def _header(stamp: int) -> Header:
-    seconds, nanoseconds = divmod(stamp, 1_000_000_000)
-    return Header(stamp=Time(sec=seconds, nanosec=nanoseconds))
+def _put_stamp(header: Header, stamp: int) -> None:
+    header.stamp.sec, header.stamp.nanosec = divmod(stamp, 1_000_000_000)
