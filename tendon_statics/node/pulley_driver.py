@@ -1,19 +1,73 @@
-"""The node ``pulley_driver``: plays recorded tensions where a rig has motor drivers."""
+"""The node ``pulley_driver``: plays recorded tensions where a rig has motor drivers.
+
+It publishes as such drivers do, and on request makes their faults. It counts what it sends, so
+that whoever counts what arrives can balance the books.
+"""
 
 from __future__ import annotations
 
+import json
+import math
+from collections import Counter
 from typing import Any
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from rclpy.clock import Clock, ClockType
+from rclpy.logging import get_logger
 from rclpy.node import Node
-from std_msgs.msg import Float64MultiArray
 
 from ..installed_files import installed_config
 from ..tension_file import TensionFileError, load_tensions
+from .faults import (
+    STAMP_FAULTS,
+    Fault,
+    FaultError,
+    FaultMaker,
+    FaultSettings,
+    Reading,
+    fault_parameters,
+)
+from .number_parameter import NumberError, NumberParameter
 from .program import StartError
+from .tension_publishers import (
+    ArrayPublisher,
+    JointStatePublisher,
+    TensionPublisher,
+    WrenchPairPublisher,
+)
 
-MIN_RATE, MAX_RATE = 0.01, 10000.0
-"""Hz"""
+SOURCES = ('array', 'joint_state', 'wrench_pair')
+WRENCH_COMPONENTS = ('x', 'y', 'z', 'norm')
+CABLES = ('cable_l', 'cable_s')
+
+SHORTEST_TICK, LONGEST_TICK = 0.001, 0.1
+"""s between two looks at what is due; a timer in Python is not good for more of them"""
+
+CATCH_UP_TIME = 0.1
+"""s; readings that are later than that are skipped, so that no backlog grows"""
+
+RATE = NumberParameter(
+    'rate', 10.0, 0.01, 20000.0, 'Hz', 'readings per second, of real time also with use_sim_time'
+)
+COUNT = NumberParameter('count', 0, 0, 2**62, '', 'readings after which it ends; 0: endless')
+AWAITED_SUBSCRIBERS = NumberParameter(
+    'awaited_subscribers',
+    0,
+    0,
+    100,
+    '',
+    'subscribers on each topic of tensions to wait for before the first reading',
+)
+GAINS = tuple(
+    NumberParameter(
+        f'{cable}.gain', 1.0, -1e9, 1e9, 'N', 'tension per raw unit: N = gain raw + bias; not 0'
+    )
+    for cable in CABLES
+)
+BIASES = tuple(
+    NumberParameter(f'{cable}.bias', 0.0, -1e9, 1e9, 'N', 'tension at which raw is 0')
+    for cable in CABLES
+)
 
 
 class PulleyDriver(Node):
@@ -21,45 +75,158 @@ class PulleyDriver(Node):
 
     def __init__(self) -> None:
         super().__init__('pulley_driver')
-        path = self._parameter(
+        path = self._declare(
             'file', '', 'CSV file of tensions in N to play; empty: the installed demo_tensions.csv'
         )
-        rate = self._parameter(
-            'rate',
-            10.0,
-            '[Hz]: messages per second',
-            floating_point_range=[FloatingPointRange(from_value=MIN_RATE, to_value=MAX_RATE)],
-            dynamic_typing=True,  # so that 20 is as good as 20.0
-        )
-        if not isinstance(rate, (int, float)) or not MIN_RATE <= rate <= MAX_RATE:
-            raise StartError(f'rate is {rate!r}, allowed is {MIN_RATE} to {MAX_RATE} Hz')
-        self._loop = self._parameter('loop', True, 'whether to begin anew after the last row')
-        self._awaited_subscribers = self._parameter(
-            'awaited_subscribers',
-            0,
-            'subscribers on tensions to wait for before the first row',
-            integer_range=[IntegerRange(from_value=0, to_value=100)],
-        )
+        self._loop = self._declare('loop', True, 'whether to begin anew after the last row')
+        self._publisher = self._make_publisher()
         try:
+            self._rate = self._declare_number(RATE)
+            self._count = self._declare_number(COUNT)
+            self._awaited_subscribers = self._declare_number(AWAITED_SUBSCRIBERS)
+            self._gains = [self._declare_number(gain) for gain in GAINS]
+            self._biases = [self._declare_number(bias) for bias in BIASES]
+            settings = FaultSettings(
+                **{
+                    parameter.name: self._declare_number(parameter)
+                    for parameter in fault_parameters()
+                }
+            )
             self._rows = load_tensions(path or installed_config('demo_tensions.csv'))
-        except TensionFileError as error:
+        except (NumberError, FaultError, TensionFileError) as error:
             raise StartError(str(error)) from None
-        self._next = 0
-        self._tensions = self.create_publisher(Float64MultiArray, 'tensions', 10)
-        self._timer = self.create_timer(1.0 / rate, self._play)
+        for gain, value in zip(GAINS, self._gains, strict=True):
+            if value == 0.0:
+                raise StartError(f'{gain.name} is 0, but N = gain raw + bias needs another')
+        for fault in STAMP_FAULTS:
+            if settings.probability(fault) > 0.0 and isinstance(self._publisher, ArrayPublisher):
+                raise StartError(
+                    f'{fault.value}_probability is {settings.probability(fault):g}, but '
+                    'tension_source is array, of which no message has a stamp'
+                )
+        self._faults = FaultMaker(settings)
+        self._sent: Counter[str] = Counter()
+        self._done = 0  # readings that were sent or skipped
+        self._begin: float | None = None  # s
+        self._has_ended = False
+        self._steady_clock = Clock(clock_type=ClockType.STEADY_TIME)
+        tick = max(1.0 / self._rate, SHORTEST_TICK)
+        self._tick = tick / math.ceil(tick / LONGEST_TICK)
+        self._timer = self.create_timer(self._tick, self._send_due, clock=self._steady_clock)
 
-    def _parameter(self, name: str, default: Any, description: str, **ranges: Any) -> Any:
-        descriptor = ParameterDescriptor(description=description, read_only=True, **ranges)
+    def destroy_node(self) -> None:
+        """Say what was sent, unless that was said at the end of it, and destroy the node."""
+        self._end()
+        super().destroy_node()
+
+    # Parameters
+
+    def _declare(self, name: str, default: Any, description: str, **more: Any) -> Any:
+        descriptor = ParameterDescriptor(description=description, read_only=True, **more)
         return self.declare_parameter(name, default, descriptor).value
 
-    def _play(self) -> None:
-        if self._tensions.get_subscription_count() < self._awaited_subscribers:
+    def _declare_number(self, parameter: NumberParameter) -> Any:
+        # Before rclpy looks at it, whose errors do not say what is allowed.
+        override = self._parameter_overrides.get(parameter.name)
+        if override is not None:
+            parameter.check(override.value)
+        limits = {'from_value': parameter.minimum, 'to_value': parameter.maximum}
+        ranges: dict[str, Any] = (
+            {'integer_range': [IntegerRange(**limits)]}
+            if parameter.is_integer
+            # Of any type, so that 20 is as good as 20.0.
+            else {'floating_point_range': [FloatingPointRange(**limits)], 'dynamic_typing': True}
+        )
+        unit = f'[{parameter.unit}]: ' if parameter.unit else ''
+        return self._declare(
+            parameter.name, parameter.default, unit + parameter.description, **ranges
+        )
+
+    def _declare_choice(
+        self, name: str, default: str, allowed: tuple[str, ...], description: str
+    ) -> str:
+        choices = ', '.join(allowed)
+        value: str = self._declare(name, default, f'{description}: {choices}')
+        if value not in allowed:
+            raise StartError(f'{name} is {value!r}, allowed is one of {choices}')
+        return value
+
+    def _make_publisher(self) -> TensionPublisher:
+        source = self._declare_choice(
+            'tension_source', 'array', SOURCES, 'the kind of messages that are published'
+        )
+        names = self._declare(
+            'cable_names',
+            list(CABLES),
+            'names of cable l and cable s in a joint_state',
+        )
+        if len(names) != 2 or len(set(names)) != 2 or '' in names:
+            raise StartError(
+                f'cable_names is {list(names)!r}, but two different names are needed, that of '
+                'cable l first'
+            )
+        component = self._declare_choice(
+            'wrench_component',
+            'z',
+            WRENCH_COMPONENTS,
+            'where in a wrench_pair the tension is; a norm is published as z',
+        )
+        if source == 'array':
+            return ArrayPublisher(self)
+        if source == 'joint_state':
+            return JointStatePublisher(self, names)
+        return WrenchPairPublisher(self, component)
+
+    # Sending
+
+    def _send_due(self) -> None:
+        now = self._steady_clock.now().nanoseconds * 1e-9
+        if self._begin is None:
+            if self._publisher.subscription_count() < self._awaited_subscribers:
+                return
+            self._begin = now
+        # Half a tick of tolerance, since a timer comes now and then a little early.
+        due = math.floor((now - self._begin + 0.5 * self._tick) * self._rate) + 1 - self._done
+        allowed = max(1, math.ceil(CATCH_UP_TIME * self._rate))
+        if due > allowed:
+            self._sent['skipped'] += due - allowed
+            self._done += due - allowed
+        for _ in range(min(due, allowed)):
+            self._send()
+            if self._has_sent_all():
+                self._end()
+                return
+
+    def _send(self) -> None:
+        row = self._rows[self._sent['readings'] % len(self._rows)]
+        reading = self._faults.reading(row[:2], self.get_clock().now().nanoseconds)
+        messages = self._publish(reading) if reading.fault is not Fault.DROPOUT else 0
+        # Only now, since the context may end in the midst of it.
+        self._done += 1
+        self._sent.update(['readings', reading.fault.value])
+        self._sent['messages'] += messages
+
+    def _publish(self, reading: Reading) -> int:
+        raw = [
+            (tension - bias) / gain
+            for tension, gain, bias in zip(
+                reading.tensions, self._gains, self._biases, strict=True
+            )
+        ]
+        missing = reading.cable if reading.fault is Fault.WRONG_LENGTH else None
+        return self._publisher.publish(raw, reading.stamp, missing)
+
+    def _has_sent_all(self) -> bool:
+        readings = self._sent['readings']
+        return readings == self._count or (not self._loop and readings == len(self._rows))
+
+    def _end(self) -> None:
+        """Send no more, and say what was sent."""
+        if self._has_ended:
             return
-        self._awaited_subscribers = 0
-        self._tensions.publish(Float64MultiArray(data=self._rows[self._next][:2]))
-        self._next += 1
-        if self._next == len(self._rows):
-            self._next = 0
-            if not self._loop:
-                self._timer.cancel()
-                self.get_logger().info(f'Played {len(self._rows)} rows')
+        self._has_ended = True
+        self._timer.cancel()
+        keys = ('readings', 'messages', 'skipped', *(fault.value for fault in Fault))
+        sent = json.dumps({key: self._sent[key] for key in keys})
+        # Not by the node's own logger: its topic /rosout is gone after a signal.
+        get_logger(f'{self.get_logger().name}.sent').info(f'Sent: {sent}')
