@@ -25,7 +25,7 @@ from tendon_statics.physics import (
 
 HELD, SLIPPING, STOP, SLACK = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0), (0.0, 2.0)
 TOPICS = (
-    *('regime', 'bend_angle', 'joint_pressure', 'unit_pose', 'slip_margin'),
+    *('regime', 'bend_angle', 'joint_pressure', 'unit_pose', 'joint_state', 'slip_margin'),
     *('admissible_angles', 'estimate'),
 )
 MALFORMED = [

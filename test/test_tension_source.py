@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
 
-from tendon_statics.node.settings import Calibration
 from tendon_statics.node.tension_source import (
     MOST_WAITING,
     ArraySource,
+    Calibration,
     JointStateSource,
     Reading,
     Reason,

@@ -30,9 +30,9 @@ from ..physics import (
 )
 from . import messages
 from .health import Health, Level
+from .number_parameter import SettingError
 from .outputs import INVALID, STALE, Outputs
 from .settings import (
-    SettingError,
     Settings,
     declare_settings,
     read_settings,

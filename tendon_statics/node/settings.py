@@ -5,51 +5,28 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Iterable, Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
-from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
-from rclpy.exceptions import InvalidParameterValueException
 from rclpy.node import Node
 
 from ..design_file import default_design_path, load_design
 from ..physics import BendAngleError, DesignError, JointDesign, design_parameters
 from ..physics.admissible import check_bend_angle
 from ..physics.solver import MAX_TENSION
+from .number_parameter import NumberParameter, SettingError
+from .parameters import BIASES, CABLES, GAINS, declare_number
+from .tension_source import Calibration
 
 PREFIX = 'design.'
 
 
-class SettingError(ValueError):
-    """A parameter has a value that is not allowed."""
-
-
-class NumberParameter(NamedTuple):
-    """A parameter that takes a number, beside those of the design."""
-
-    name: str
-    default: float
-    minimum: float
-    maximum: float
-    unit: str
-    description: str
-
-
-def _of_cable(cable: str) -> tuple[NumberParameter, ...]:
-    tension = f'tension_{cable}'
-    return (
-        NumberParameter(
-            *(f'cable_{cable}.gain', 1.0, -1e6, 1e6, 'N'),
-            f'newtons per unit of the measured value: {tension} = gain * value + bias',
-        ),
-        NumberParameter(
-            *(f'cable_{cable}.bias', 0.0, -1e6, 1e6, 'N'), f'{tension} at the measured value 0'
-        ),
-        NumberParameter(
-            *(f'cable_{cable}.max_tension', 1000.0, 0.001, MAX_TENSION, 'N'),
-            f'above it {tension} is implausible',
-        ),
+MAX_TENSIONS = tuple(
+    NumberParameter(
+        *(f'{cable}.max_tension', 1000.0, 0.001, MAX_TENSION, 'N'),
+        'above it a tension is implausible',
     )
-
+    for cable in CABLES
+)
 
 NUMBERS = (
     NumberParameter(
@@ -68,18 +45,11 @@ NUMBERS = (
         *('max_skew', 0.005, 0.0, 10.0, 's'),
         'wrench_pair: most that the stamps of two load cells may differ in a pair',
     ),
-    *_of_cable('l'),
-    *_of_cable('s'),
+    *GAINS,
+    *BIASES,
+    *MAX_TENSIONS,
 )
-"""Those that may change while the node runs"""
-
-
-class Calibration(NamedTuple):
-    """How a cable's tension in N follows from what is measured: gain · value + bias."""
-
-    gain: float
-    bias: float
-    max_tension: float
+"""Those that may change while the node runs, beside the design's"""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -105,10 +75,11 @@ class Settings:
             allowed.
         """
         design = _design(values)
-        number = {
-            parameter.name: _checked_number(parameter, values[parameter.name])
-            for parameter in NUMBERS
-        }
+        number: dict[str, float] = {}
+        for parameter in NUMBERS:
+            value: Any = values[parameter.name]
+            parameter.check(value)
+            number[parameter.name] = float(value)
         initial_bend_angle = number['initial_bend_angle']
         try:
             check_bend_angle(design, initial_bend_angle)
@@ -163,22 +134,19 @@ def declare_settings(node: Node) -> None:
             + ', '.join(f'{PREFIX}{name} = {getattr(default, name)!r}' for name in left_out)
         )
     for parameter in design_parameters():
-        unit = f' [{parameter.unit}]' if parameter.unit else ''
-        _declare_number(
+        declare_number(
             node,
-            PREFIX + parameter.name,
-            getattr(default, parameter.name),
-            f'{parameter.symbol}{unit}: {parameter.description}',
-            (parameter.minimum, parameter.maximum),
+            NumberParameter(
+                name=PREFIX + parameter.name,
+                default=getattr(default, parameter.name),
+                minimum=parameter.minimum,
+                maximum=parameter.maximum,
+                unit=parameter.unit,
+                description=f'{parameter.description} ({parameter.symbol})',
+            ),
         )
     for number in NUMBERS:
-        _declare_number(
-            node,
-            number.name,
-            number.default,
-            f'[{number.unit}]: {number.description}',
-            (number.minimum, number.maximum),
-        )
+        declare_number(node, number)
 
 
 def read_settings(node: Node, changes: Iterable[Any] = ()) -> Settings:
@@ -204,26 +172,6 @@ def warn_of_unknown_parameters(node: Node) -> None:
         )
 
 
-def _declare_number(
-    node: Node, name: str, default: float, description: str, limits: tuple[float, float]
-) -> None:
-    low, high = limits
-    kind = {
-        'description': description,
-        'additional_constraints': f'a number from {low:.6g} to {high:.6g}',
-        # So that `1` is as good as `1.0`; Settings refuses what is not a number.
-        'dynamic_typing': True,
-    }
-    allowed = FloatingPointRange(from_value=low, to_value=high)
-    try:
-        node.declare_parameter(
-            name, default, ParameterDescriptor(**kind, floating_point_range=[allowed])
-        )
-    except InvalidParameterValueException:
-        # A value that is not allowed keeps the node from configuring, until it is set to another.
-        node.declare_parameter(name, default, ParameterDescriptor(**kind))
-
-
 def _design(values: Mapping[str, object]) -> JointDesign:
     try:
         return JointDesign.from_mapping(
@@ -244,16 +192,3 @@ def _calibration(cable: str, number: Mapping[str, float]) -> Calibration:
             f'{cable}.gain is 0.0, with which the tension does not follow what is measured'
         )
     return calibration
-
-
-def _checked_number(parameter: NumberParameter, value: object) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise SettingError(
-            f'{parameter.name} is {value!r}, which is not a number in {parameter.unit}'
-        )
-    if not parameter.minimum <= value <= parameter.maximum:
-        raise SettingError(
-            f'{parameter.name} is {value!r}, allowed is {parameter.minimum:.6g} to '
-            f'{parameter.maximum:.6g} {parameter.unit}'
-        )
-    return float(value)

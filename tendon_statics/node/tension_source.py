@@ -13,8 +13,6 @@ from geometry_msgs.msg import Vector3, WrenchStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
-from .settings import Calibration
-
 NANOSECONDS = 1_000_000_000
 
 MOST_WAITING = 100
@@ -254,6 +252,14 @@ class StampOrder:
         else:
             text = f'the stamp is {_seconds(time)} s, after {_seconds(newest)} s'
         return (Reason.REPEATED_STAMP if time == newest else Reason.OUT_OF_ORDER), text
+
+
+class Calibration(NamedTuple):
+    """How a cable's tension in N follows from what is measured: gain * value + bias."""
+
+    gain: float
+    bias: float
+    max_tension: float
 
 
 def calibrated(
