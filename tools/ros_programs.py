@@ -246,6 +246,8 @@ class Listener(Node):
         wait_for('the estimator', found)
         if not greet:
             return
+        for store in self._stores:
+            store.clear()
         deadline = time.monotonic() + TIME_LIMIT
         while not all(kept.values()):
             assert time.monotonic() < deadline, f'no answer on all of {", ".join(kept)}'
@@ -336,8 +338,13 @@ class Listener(Node):
             self.tension_publishers[0].publish(message)
             return
         for publisher, value in zip(self.tension_publishers, values, strict=True):
-            wrench = Wrench(force=Vector3(z=value))
-            publisher.publish(WrenchStamped(header=header, wrench=wrench))
+            publisher.publish(WrenchStamped(header=header, wrench=_wrench(value)))
+
+    def publish_one(self, tension: float) -> None:
+        """Publish what the load cell of cable l says, and nothing of the other."""
+        header = Header(stamp=self.get_clock().now().to_msg())
+        message = WrenchStamped(header=header, wrench=_wrench(tension))
+        self.tension_publishers[0].publish(message)
 
     def answer(self, *data: float) -> str:
         """Publish one message and wait until its regime, the first thing said of it, is here."""
@@ -399,3 +406,7 @@ class Listener(Node):
         """Return descriptors of parameters of the estimator."""
         request = DescribeParameters.Request(names=list(names))
         return self.call('describe_parameters', request).descriptors
+
+
+def _wrench(tension: float) -> Wrench:
+    return Wrench(force=Vector3(z=tension))
