@@ -280,7 +280,7 @@ def test_a_signal_finds_the_books_said_once_and_exits_with_0(number, arguments):
         ('dropout_probability:=1.5', 'dropout_probability is 1.5, allowed is 0 to 1'),
         ('slack_length:=0', 'slack_length is 0, allowed is 1 to 1000000'),
         ('tension_source:=can', "tension_source is 'can', allowed is one of array, joint_state"),
-        ('wrench_component:=w', "wrench_component is 'w', allowed is one of x, y, z, norm"),
+        ('wrench_component:=w', "wrench_component is 'w', allowed is one of z, x, y, norm"),
         ('cable_names:=[a]', "cable_names is ['a'], but two different names are needed"),
         ('cable_names:=[a, a]', "cable_names is ['a', 'a'], but two different names"),
         ('cable_s.gain:=0', 'cable_s.gain is 0, but N = gain raw + bias needs another'),

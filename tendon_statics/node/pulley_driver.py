@@ -29,6 +29,7 @@ from .faults import (
 )
 from .number_parameter import NumberError, NumberParameter
 from .program import StartError
+from .tension_kinds import TENSION_SOURCES, WRENCH_COMPONENTS
 from .tension_publishers import (
     ArrayPublisher,
     JointStatePublisher,
@@ -36,8 +37,6 @@ from .tension_publishers import (
     WrenchPairPublisher,
 )
 
-SOURCES = ('array', 'joint_state', 'wrench_pair')
-WRENCH_COMPONENTS = ('x', 'y', 'z', 'norm')
 CABLES = ('cable_l', 'cable_s')
 
 SHORTEST_TICK, LONGEST_TICK = 0.001, 0.1
@@ -142,18 +141,16 @@ class PulleyDriver(Node):
             parameter.name, parameter.default, unit + parameter.description, **ranges
         )
 
-    def _declare_choice(
-        self, name: str, default: str, allowed: tuple[str, ...], description: str
-    ) -> str:
+    def _declare_choice(self, name: str, allowed: tuple[str, ...], description: str) -> str:
         choices = ', '.join(allowed)
-        value: str = self._declare(name, default, f'{description}: {choices}')
+        value: str = self._declare(name, allowed[0], f'{description}: {choices}')
         if value not in allowed:
             raise StartError(f'{name} is {value!r}, allowed is one of {choices}')
         return value
 
     def _make_publisher(self) -> TensionPublisher:
         source = self._declare_choice(
-            'tension_source', 'array', SOURCES, 'the kind of messages that are published'
+            'tension_source', TENSION_SOURCES, 'the kind of messages that are published'
         )
         names = self._declare(
             'cable_names',
@@ -167,7 +164,6 @@ class PulleyDriver(Node):
             )
         component = self._declare_choice(
             'wrench_component',
-            'z',
             WRENCH_COMPONENTS,
             'where in a wrench_pair the tension is; a norm is published as z',
         )
