@@ -7,7 +7,7 @@ from pathlib import Path
 from ament_index_python.packages import get_package_share_directory
 from launch import Condition
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitutions import Command, FindExecutable
+from launch.substitutions import Command
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
@@ -35,7 +35,7 @@ def robot_state_publisher(
         Other arguments of ``urdf/unit.urdf.xacro``.
     """
     urdf = Path(get_package_share_directory('tendon_statics')) / 'urdf' / 'unit.urdf.xacro'
-    command = [FindExecutable(name='xacro'), f' "{urdf}" design_file:="', design_file, '"']
+    command = [f'xacro "{urdf}" design_file:="', design_file, '"']
     command += [f' {name}:="{value}"' for name, value in xacro_arguments.items()]
     return Node(
         package='robot_state_publisher',
