@@ -11,7 +11,7 @@ README = (ROOT / 'README.md').read_text(encoding='utf-8')
 @pytest.mark.parametrize('page', PAGES)
 def test_tables_are_what_the_program_prints(page):
     text = (ROOT / page).read_text(encoding='utf-8')
-    assert '<!-- made by: tendon-statics ' in text
+    assert '<!-- made by: ' in text
     assert made(text) == text, 'run `make docs`'
 
 
@@ -29,21 +29,20 @@ def test_figures_are_shown_somewhere(figure):
 
 
 def test_the_readme_names_everything_the_node_has():
-    """Asked of the running node: its topics, services and parameters."""
-    from ros_programs import Listener, spinning
+    """Asked of the node itself: its topics, services and parameters."""
+    from list_entities import entities, estimator
 
-    with spinning(Listener) as listener, listener.estimator('-p', 'estimation:=tracking'):
-        own = '/estimator/'
-        listener.wait_for_node('estimator')
-        published = listener.get_publisher_names_and_types_by_node('estimator', '/')
-        served = listener.get_service_names_and_types_by_node('estimator', '/')
-    parameter_services = ('parameter', 'type_description')
-    names = [name for name, _ in published + served if name.startswith(own)]
-    for name in names:
-        if not any(part in name for part in parameter_services):
-            assert f'`~/{name.removeprefix(own)}`' in README, name
-    assert '`measured_bend_angle`' in README
-    for parameter in (
-        *('tension_stddev', 'frame_id', 'qos_overrides', 'estimation', 'initial_bend_angle'),
-    ):
-        assert f'`{parameter}' in README
+    with estimator('estimation:=tracking', 'markers:=true') as node:
+        found = entities(node)
+        parameters = list(node._parameters)
+    # What every managed node of ROS has.
+    of_ros = re.compile(
+        '.*parameter.*|.*type_description|/rosout|~/transition_event|~/change_state|~/get_.*'
+    )
+    for name in [name for names in found.values() for name in names]:
+        if not of_ros.fullmatch(name):
+            written = name if name == '/diagnostics' else name.removeprefix('/')
+            assert f'`{written}`' in README
+    for name in parameters:
+        if not name.startswith(('qos_overrides.', 'use_sim_time', 'start_type_description')):
+            assert f'`{name}`' in README, name

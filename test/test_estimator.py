@@ -25,7 +25,7 @@ from tendon_statics.physics import (
 
 HELD, SLIPPING, STOP, SLACK = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0), (0.0, 2.0)
 TOPICS = (
-    *('regime', 'bend_angle', 'joint_pressure', 'unit_pose', 'slip_margin'),
+    *('regime', 'bend_angle', 'joint_pressure', 'unit_pose', 'joint_state', 'slip_margin'),
     *('admissible_angles', 'estimate'),
 )
 MALFORMED = [
@@ -387,7 +387,7 @@ def test_a_signal_ends_it_within_two_seconds_with_exit_code_0(number, under_load
     [
         'tendon_statics.node.program.import_module',
         'rclpy.init',
-        'tendon_statics.node.estimator.Estimator._publisher',
+        'tendon_statics.node.outputs.Outputs._publisher',
     ],
     ids=lambda moment: moment.rsplit('.', 1)[-1],
 )

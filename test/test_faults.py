@@ -14,12 +14,11 @@ from tendon_statics.node.faults import (
     LAG,
     STAMP_FAULTS,
     Fault,
-    FaultError,
     FaultMaker,
     FaultSettings,
     fault_parameters,
 )
-from tendon_statics.node.number_parameter import NumberError
+from tendon_statics.node.number_parameter import SettingError
 
 TENSIONS = (1.0, 2.0)
 PERIOD = 2_000_000
@@ -161,7 +160,7 @@ def test_stamps_grow_while_a_simulated_clock_stands_still_and_follow_it_back():
 def test_a_setting_out_of_range_or_not_a_number_is_refused_by_name(parameter):
     bad = [math.nan, math.inf, parameter.minimum - 1, parameter.maximum + 1, 'much', True, None]
     for value in bad:
-        with pytest.raises(NumberError, match=f'{parameter.name} is .*allowed is') as raised:
+        with pytest.raises(SettingError, match=f'{parameter.name} is .*allowed is') as raised:
             FaultSettings(**{parameter.name: value})
         assert repr(value) in str(raised.value)
     for value in (parameter.minimum, parameter.maximum, parameter.default):
@@ -170,5 +169,5 @@ def test_a_setting_out_of_range_or_not_a_number_is_refused_by_name(parameter):
 
 def test_more_than_one_fault_per_message_is_refused():
     FaultSettings(dropout_probability=0.5, slack_probability=0.5)
-    with pytest.raises(FaultError, match=r'1\.1 together, allowed is at most 1'):
+    with pytest.raises(SettingError, match=r'1\.1 together, allowed is at most 1'):
         FaultSettings(dropout_probability=0.5, slack_probability=0.6)

@@ -1,7 +1,7 @@
 """Make again what the documentation takes from the program: tables and figures.
 
-A page holds ``<!-- made by: tendon-statics ... -->``; what that command prints stands between it
-and ``<!-- end -->``. Figures are files, listed here.
+A page holds ``<!-- made by: tendon-statics ... -->``, or a tool of this folder in its place; what
+that command prints stands between it and ``<!-- end -->``. Figures are files, listed here.
 """
 
 from __future__ import annotations
@@ -13,29 +13,34 @@ import sys
 from contextlib import redirect_stdout
 from pathlib import Path
 
+import list_entities
+
 from tendon_statics.command_line.main import main as run
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = ('README.md', 'docs/model.md')
+PAGES = ('README.md', 'docs/model.md', 'docs/node.md')
 FIGURES = {
     'docs/hysteresis.svg': 'plot hysteresis',
     'docs/residual.svg': 'plot residual',
     'docs/unit.svg': 'plot unit',
 }
 
-_BLOCK = re.compile(r'(<!-- made by: tendon-statics (.+?) -->\n).*?(<!-- end -->)', re.DOTALL)
+TOOLS = {'tools/list_entities.py': list_entities.main}
+
+_BLOCK = re.compile(r'(<!-- made by: (.+?) -->\n).*?(<!-- end -->)', re.DOTALL)
 
 
 def made(page: str) -> str:
-    """Return a page's text with all its blocks made anew."""
+    """Return the text of a page with all its blocks made anew."""
 
     def make(block: re.Match[str]) -> str:
-        opening, arguments, closing = block.groups()
+        opening, command, closing = block.groups()
+        program, *arguments = shlex.split(command)
         output = io.StringIO()
         with redirect_stdout(output):
-            code = run(shlex.split(arguments))
-        if code != 0:
-            raise RuntimeError(f'{page}: tendon-statics {arguments} ended with {code}')
+            code = TOOLS[program]() if program in TOOLS else run(arguments)
+        if code:
+            raise RuntimeError(f'{command} ended with {code}')
         text = output.getvalue()
         if not text.startswith('|'):
             text = f'```text\n{text}```\n'

@@ -14,7 +14,10 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ament_index_python.packages import get_package_prefix
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseWithCovarianceStamped
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState, GetState
 from rcl_interfaces.msg import Parameter, ParameterValue, SetParametersResult
 from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParametersAtomically
 from rclpy.context import Context
@@ -22,6 +25,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
 from rclpy.qos import QoSProfile
+from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray, String
 from std_srvs.srv import Trigger
 from tendon_statics_interfaces.msg import Estimate
@@ -123,12 +127,15 @@ class Listener(Node):
     def __init__(self, context: Context) -> None:
         super().__init__('listener', context=context)
         self.regimes: list[str] = []
+        self.stale_regimes: list[str] = []
         self.bend_angles: list[float] = []
         self.joint_pressures: list[float] = []
         self.unit_poses: list[PoseWithCovarianceStamped] = []
+        self.joint_states: list[JointState] = []
         self.slip_margins: list[float] = []
         self.admissible_angles: list[Float64MultiArray] = []
         self.estimates: list[Estimate] = []
+        self.diagnostics: list[DiagnosticStatus] = []
         self.measured_bend_angle = self.create_publisher(Float64, 'measured_bend_angle', 10)
         self.tensions = self.create_publisher(Float64MultiArray, 'tensions', 1000)
         self._clients_by_name = {
@@ -138,19 +145,29 @@ class Listener(Node):
                 ('solve_inverse', SolveInverse),
                 ('solve_latest', Trigger),
                 ('reset', Trigger),
+                ('change_state', ChangeState),
+                ('get_state', GetState),
                 ('get_parameters', GetParameters),
                 ('describe_parameters', DescribeParameters),
                 ('set_parameters_atomically', SetParametersAtomically),
             )
         }
         self._stores = (
-            self._keep(String, 'regime', self.regimes, attribute='data'),
+            self._keep_regimes(),
             self._keep(Float64, 'bend_angle', self.bend_angles, attribute='data'),
             self._keep(Float64, 'joint_pressure', self.joint_pressures, attribute='data'),
             self._keep(PoseWithCovarianceStamped, 'unit_pose', self.unit_poses),
+            self._keep(JointState, 'joint_state', self.joint_states),
             self._keep(Float64, 'slip_margin', self.slip_margins, attribute='data'),
             self._keep(Float64MultiArray, 'admissible_angles', self.admissible_angles),
             self._keep(Estimate, 'estimate', self.estimates),
+        )
+        self._answered = list(self.subscriptions)
+        self.create_subscription(
+            DiagnosticArray,
+            '/diagnostics',
+            lambda message: self.diagnostics.extend(message.status),
+            QoSProfile(depth=5000),
         )
 
     def _keep(self, message_type: type, topic: str, store: list, attribute: str = '') -> list:
@@ -159,6 +176,15 @@ class Listener(Node):
 
         self.create_subscription(message_type, f'estimator/{topic}', keep, QoSProfile(depth=5000))
         return store
+
+    def _keep_regimes(self) -> list:
+        """Keep ``stale`` apart, since no message causes it."""
+
+        def keep(message: String) -> None:
+            (self.stale_regimes if message.data == 'stale' else self.regimes).append(message.data)
+
+        self.create_subscription(String, 'estimator/regime', keep, QoSProfile(depth=5000))
+        return self.regimes
 
     @contextmanager
     def estimator(self, *ros_arguments: str, greet: bool = True) -> Iterator[Program]:
@@ -177,7 +203,7 @@ class Listener(Node):
         """
         kept = {
             subscription.topic_name: store
-            for subscription, store in zip(self.subscriptions, self._stores, strict=True)
+            for subscription, store in zip(self._answered, self._stores, strict=True)
             if not (without and subscription.topic_name.endswith(without))
         }
 
@@ -185,7 +211,7 @@ class Listener(Node):
             assert program.process.poll() is None, program.output()
             return self.tensions.get_subscription_count() > 0 and all(
                 subscription.get_publisher_count() > 0
-                for subscription in self.subscriptions
+                for subscription in self._answered
                 if subscription.topic_name in kept
             )
 
@@ -206,7 +232,8 @@ class Listener(Node):
         )
         wait_for('the mirrored pose', lambda: self.unit_poses[-1].pose.pose.orientation.y < 0.0)
         wait_for('the mirrored margin', lambda: self.slip_margins[-1] < 0.0)
-        numbers = (self.bend_angles, self.slip_margins, self.unit_poses)
+        wait_for('the mirrored joint', lambda: self.joint_states[-1].position[0] < 0.0)
+        numbers = (self.bend_angles, self.slip_margins, self.unit_poses, self.joint_states)
         before = [len(store) for store in (*numbers, self.joint_pressures)]
         self.publish(*ANSWERED_AS_HELD)
         wait_for('the regime held', lambda: self.regimes[-1] == 'held')
@@ -215,13 +242,48 @@ class Listener(Node):
             wait_for('the estimate of a held unit', lambda: self.estimates[-1].regime == 'held')
             # A tracker knows where it is held.
             held = self.estimates[-1]
-            known = [not math.isnan(held.bend_angle)] * 3 + [not math.isnan(held.pressure)]
+            known = [not math.isnan(held.bend_angle)] * 4 + [not math.isnan(held.pressure)]
             for store, count, more in zip(
                 (*numbers, self.joint_pressures), before, known, strict=True
             ):
                 wait_for('the numbers of a held unit', lambda s=store, n=count + more: len(s) == n)
         for store in self._stores:
             store.clear()
+
+    def connect_to_services(self, program: Program) -> None:
+        """Wait until the estimator's services are there; it may be in any state."""
+
+        def found() -> bool:
+            assert program.process.poll() is None, program.output()
+            return all(client.service_is_ready() for client in self._clients_by_name.values())
+
+        wait_for('the services', found)
+
+    def change_state(self, transition: str) -> bool:
+        """Ask for a transition of the estimator's lifecycle by its label."""
+        before = self.estimator_state()
+        request = ChangeState.Request(transition=Transition(label=transition))
+        changed = self.call('change_state', request).success
+        # An answer may be lost after it was done; the second call then finds it done.
+        return changed or self.estimator_state() != before
+
+    def estimator_state(self) -> str:
+        """Return the state of the estimator's lifecycle."""
+        return self.call('get_state', GetState.Request()).current_state.label
+
+    def wait_for_status(self, level: bytes, *parts: str) -> DiagnosticStatus:
+        """Wait until a new status of a level comes whose message has these parts."""
+        begin = len(self.diagnostics)
+
+        def newest() -> list[DiagnosticStatus]:
+            return [
+                status
+                for status in self.diagnostics[begin:]
+                if status.level == level and all(part in status.message for part in parts)
+            ]
+
+        wait_for(f'a status with {parts}', lambda: bool(newest()))
+        return newest()[0]
 
     def wait_for_node(self, name: str, namespace: str = '/') -> None:
         """Wait until a node is known by name, which is later than its topics are."""

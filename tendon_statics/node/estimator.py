@@ -3,130 +3,142 @@
 from __future__ import annotations
 
 import copy
+import functools
 import json
+import time
 from collections.abc import Callable
 from typing import Any
 
-from geometry_msgs.msg import PoseWithCovarianceStamped
-from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
-from rclpy.node import Node
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.clock import Clock, ClockType, JumpThreshold
+from rclpy.duration import Duration
+from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
-from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.subscription import Subscription
-from rclpy.time import Time
-from std_msgs.msg import Float64, Float64MultiArray, Header, String
+from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
 from ..physics import (
     BendAngleError,
     Equilibrium,
-    Regime,
     StickSlipTracker,
     TensionError,
     TrackedState,
-    admissible_angles,
-    slip_margin,
     solve,
 )
 from . import messages
-from .settings import SettingError, declare_settings, warn_of_unknown_parameters
+from .health import Health, Level
+from .number_parameter import SettingError
+from .outputs import INVALID, STALE, Outputs
+from .settings import (
+    Settings,
+    declare_settings,
+    read_settings,
+    warn_of_unknown_parameters,
+)
+from .tension_source import (
+    ArraySource,
+    JointStateSource,
+    Reading,
+    Reason,
+    TensionSource,
+    WrenchPairSource,
+    calibrated,
+)
+from .wiring import declare_wiring
 
 WARNING_PERIOD = 5.0
 """Least time in s between two warnings that messages cause."""
 
-INVALID = 'invalid'
-"""What ``~/regime`` says of a message that is no pair of tensions."""
+DIAGNOSTICS_PERIOD = 1.0
+"""s"""
 
 INPUT_DEPTH = 1000
 """Messages kept while the node is busy, so that a burst or a stall loses none."""
 
-ESTIMATIONS = ('equilibrium', 'tracking')
+UNCONFIGURED, INACTIVE, ACTIVE, FINALIZED = 'unconfigured', 'inactive', 'active', 'finalized'
+"""States of a managed node"""
 
 
-class Estimator(Node):
+class Estimator(LifecycleNode):
     """Publishes what every pair of tensions that arrives says of the unit.
 
     With the parameter ``estimation`` at ``equilibrium`` each pair is solved by itself, as in the
     paper; at ``tracking`` a `StickSlipTracker` remembers where the unit was.
+
+    All topics, services and timers are there from the start, since rclpy does not bear that
+    subscriptions come and go while it spins. What the state of the lifecycle changes is whether
+    they do anything.
     """
 
     def __init__(self) -> None:
         super().__init__('estimator')
-        self._settings = declare_settings(self)
-        self._frame_id = self._fixed_parameter(
-            'frame_id',
-            'joint',
-            'Frame of the joint, in every stamped message: origin in the centre of the ball, '
-            'Z along the unit at zero bend, X towards cable s',
-        )
-        self._tracker = self._make_tracker()
-        self._latest: tuple[float, float, Time] | None = None
-        self._invalid_count = 0
+        self._state = UNCONFIGURED
+        self._settings: Settings  # from configuring on
+        self._tracker: StickSlipTracker | None = None
+        self._latest: tuple[float, float, float] | None = None
         self._invalid_since_latest = 0
-        self._invalid_reason = ''
         self._rejected_corrections = 0
+        self._health = Health()
+        self._reported_level = Level.OK
 
-        self._regime = self._publisher(String, '~/regime')
-        self._bend_angle = self._publisher(Float64, '~/bend_angle')
-        self._joint_pressure = self._publisher(Float64, '~/joint_pressure')
-        self._unit_pose = self._publisher(PoseWithCovarianceStamped, '~/unit_pose')
-        self._slip_margin = self._publisher(Float64, '~/slip_margin')
-        self._admissible_angles = self._publisher(Float64MultiArray, '~/admissible_angles')
-        self.create_service(Trigger, '~/solve_latest', self._on_solve_latest)
-        self.create_service(Trigger, '~/reset', self._on_reset)
-        self._estimate = None
-        if messages.INTERFACES_MISSING:
-            self.get_logger().warning(
-                'No ~/solve, ~/solve_inverse and ~/estimate, since tendon_statics_interfaces is '
-                f'not there ({messages.INTERFACES_MISSING}). It is in the folder interfaces/: '
-                'colcon build --base-paths . interfaces'
-            )
-        else:
-            self._estimate = self._publisher(messages.Estimate, '~/estimate')
-            self.create_service(messages.Solve, '~/solve', self._on_solve)
-            self.create_service(messages.SolveInverse, '~/solve_inverse', self._on_solve_inverse)
-        self._tensions = self._subscription(Float64MultiArray, 'tensions', self._on_tensions)
-        if self._tracker is not None:
+        declare_settings(self)
+        self._wiring = declare_wiring(self)
+        self._outputs = Outputs(self, self._wiring)
+        self._source = self._make_source()
+        self._inputs = [
+            self._tension_subscription(topic, *of_topic)
+            for topic, of_topic in self._source.inputs.items()
+        ]
+        if self._wiring.estimation == 'tracking':
             self._subscription(Float64, 'measured_bend_angle', self._on_measured_bend_angle)
+        self._create_services()
+        self._create_timers()
         warn_of_unknown_parameters(self)
         # Last, since every declaration fires them too.
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._take_parameters)
-        estimation = 'equilibrium' if self._tracker is None else 'tracking'
-        self.get_logger().info(f'Ready: {estimation} from {self._tensions.topic_name}')
+        if self._wiring.autostart:
+            read_settings(self)  # raises with the reason, where a transition could only fail
+            self.trigger_configure()
+            self.trigger_activate()
 
-    def _fixed_parameter(self, name: str, default: str, description: str) -> str:
-        descriptor = ParameterDescriptor(description=description, read_only=True)
-        value: str = self.declare_parameter(name, default, descriptor).value
-        return value
-
-    def _make_tracker(self) -> StickSlipTracker | None:
-        estimation = self._fixed_parameter(
-            'estimation',
-            'equilibrium',
-            'equilibrium: each pair of tensions is solved by itself; '
-            'tracking: the estimator remembers where the unit was',
-        )
-        if estimation not in ESTIMATIONS:
-            raise SettingError(
-                f'estimation is {estimation!r}, allowed is {" or ".join(ESTIMATIONS)}'
+    def _make_source(self) -> TensionSource:
+        if self._wiring.tension_source == 'joint_state':
+            return JointStateSource(self._on_reading, self._on_drop, self._wiring.cable_names)
+        if self._wiring.tension_source == 'wrench_pair':
+            return WrenchPairSource(
+                self._on_reading,
+                self._on_drop,
+                self._wiring.wrench_component,
+                lambda: self._settings.max_skew,
             )
-        if estimation == 'equilibrium':
-            return None
-        return StickSlipTracker(self._settings.design, self._settings.initial_bend_angle)
+        return ArraySource(self._on_reading, self._on_drop)
 
-    def _publisher(self, message_type: type, topic: str) -> Publisher:
-        return self.create_publisher(
-            message_type,
-            topic,
-            QoSProfile(depth=10),
-            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
-        )
+    def _tension_subscription(
+        self, topic: str, message_type: type, take: Callable[[Any], None]
+    ) -> Subscription:
+        """Subscribe to a topic of the source; count what comes and what is lost on the way."""
+        newest = 0  # as the publisher numbers its messages
+
+        def on_message(message: Any, info: dict[str, int]) -> None:
+            nonlocal newest
+            number = info['publication_sequence_number']
+            if self._state == ACTIVE:
+                self._health.received += 1
+                # Two publishers number each for itself, and one that begins anew at 1.
+                if 0 < newest < number - 1 and subscription.get_publisher_count() == 1:
+                    self._health.note_lost(number - newest - 1)
+                take(message)
+            newest = number
+
+        subscription = self._subscription(message_type, topic, on_message)
+        return subscription
 
     def _subscription(
-        self, message_type: type, topic: str, callback: Callable[[Any], None]
+        self, message_type: type, topic: str, callback: Callable[..., None]
     ) -> Subscription:
         return self.create_subscription(
             message_type,
@@ -136,41 +148,187 @@ class Estimator(Node):
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
 
+    def _create_services(self) -> None:
+        if messages.INTERFACES_MISSING:
+            self.get_logger().warning(
+                'No ~/solve, ~/solve_inverse and ~/estimate, since tendon_statics_interfaces is '
+                f'not there ({messages.INTERFACES_MISSING}). It is in the folder interfaces/: '
+                'colcon build --base-paths . interfaces'
+            )
+        else:
+            self._service(messages.Solve, '~/solve', self._on_solve, messages.refuse_solve)
+            self._service(
+                messages.SolveInverse,
+                '~/solve_inverse',
+                self._on_solve_inverse,
+                messages.refuse_inverse,
+            )
+        self._service(Trigger, '~/solve_latest', self._on_solve_latest, messages.refuse)
+        self._service(Trigger, '~/reset', self._on_reset, messages.refuse)
+        # rclpy raises where a transition does not exist in the present state, through the
+        # executor, and that would end the node.
+        change = self._service_change_state
+        change.callback = functools.partial(self._on_change_state, change.callback)
+
+    def _service(
+        self,
+        service_type: type,
+        name: str,
+        answer: Callable[[Any, Any], Any],
+        refuse: Callable[[Any, str], Any],
+    ) -> None:
+        """Offer a service, which is refused with the reason unless the node is active."""
+
+        def on_request(request: Any, response: Any) -> Any:
+            if self._state == ACTIVE:
+                return answer(request, response)
+            node = self.get_fully_qualified_name()
+            return refuse(response, f'{node} is {self._state}; it answers when it is active')
+
+        self.create_service(service_type, name, on_request)
+
+    def _create_timers(self) -> None:
+        # Steady, since the node's own clock stands still with use_sim_time and no /clock.
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._throttled = {
+            'throttle_duration_sec': WARNING_PERIOD,
+            'throttle_time_source_type': steady,
+        }
+        self._diagnostics_timer = self.create_timer(
+            DIAGNOSTICS_PERIOD, self._on_diagnostics_time, clock=steady
+        )
+        self._watchdog = self.create_timer(DIAGNOSTICS_PERIOD, self._on_stale_input, clock=steady)
+        self._diagnostics_timer.cancel()
+        self._watchdog.cancel()
+        self._jump_handle = self.get_clock().create_jump_callback(
+            JumpThreshold(
+                min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=True
+            ),
+            post_callback=lambda _jump: self._source.forget(),
+        )
+
+    # Lifecycle
+
+    def on_configure(self, _state: LifecycleState) -> TransitionCallbackReturn:
+        """Take the parameters, if they are valid."""
+        try:
+            self._settings = read_settings(self)
+        except SettingError as error:
+            self.get_logger().error(f'Not configured: {error}')
+            return TransitionCallbackReturn.FAILURE
+        if self._wiring.estimation == 'tracking':
+            self._tracker = StickSlipTracker(
+                self._settings.design, self._settings.initial_bend_angle
+            )
+        self._state = INACTIVE
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_activate(self, _state: LifecycleState) -> TransitionCallbackReturn:
+        """Begin to estimate."""
+        self._health.begin_period()
+        self._watchdog.timer_period_ns = int(self._settings.input_timeout * 1e9)
+        self._watchdog.reset()
+        self._diagnostics_timer.reset()
+        self._state = ACTIVE
+        self.get_logger().info(f'Ready: {self._wiring.estimation} from {self._input_names()}')
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_deactivate(self, _state: LifecycleState) -> TransitionCallbackReturn:
+        """Do and publish nothing until activated again."""
+        self._stop()
+        self._state = INACTIVE
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_cleanup(self, _state: LifecycleState) -> TransitionCallbackReturn:
+        """Forget what was measured; parameters may be set one by one again."""
+        self._latest = None
+        self._state = UNCONFIGURED
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_shutdown(self, _state: LifecycleState) -> TransitionCallbackReturn:
+        """Do and publish nothing any more."""
+        self._stop()
+        self._state = FINALIZED
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_error(self, _state: LifecycleState) -> TransitionCallbackReturn:
+        """Go back to unconfigured; rclpy keeps to itself what went wrong."""
+        self.get_logger().error('A transition failed; the node is unconfigured now')
+        self._stop()
+        self._state = UNCONFIGURED
+        return TransitionCallbackReturn.SUCCESS
+
+    def _stop(self) -> None:
+        if self._state == ACTIVE:
+            self._watchdog.cancel()
+            self._diagnostics_timer.cancel()
+            self._source.forget()
+            self._lose_sight()
+            self._report()
+
+    def _on_change_state(
+        self, change: Callable[[Any, Any], Any], request: Any, response: Any
+    ) -> Any:
+        try:
+            return change(request, response)
+        except RuntimeError as error:  # RCLError is one
+            self.get_logger().error(f'No such transition now: {error}')
+            response.success = False
+            return response
+
     # Parameters: all of a change is checked before any of it is taken.
 
     def _check_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
-        try:
-            self._settings.changed(parameters)
-        except SettingError as error:
-            return SetParametersResult(successful=False, reason=str(error))
+        if self._state != UNCONFIGURED:  # else on configuring
+            try:
+                read_settings(self, parameters)
+            except SettingError as error:
+                return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
 
     def _take_parameters(self, parameters: list[Parameter]) -> None:
-        self._settings = self._settings.changed(parameters)
-        if self._tracker is not None:
-            before = self._tracker.bend_angle
-            self._tracker.change_design(self._settings.design)
-            if self._tracker.bend_angle != before:
-                self.get_logger().warning(
-                    f'The unit was at {before:.6g} rad, beyond the new stop; it is now taken to '
-                    f'be at {self._tracker.bend_angle:.6g} rad'
-                )
         changes = ', '.join(f'{parameter.name} = {parameter.value!r}' for parameter in parameters)
         self.get_logger().info(f'Changed: {changes}')
+        if self._state == UNCONFIGURED:
+            return
+        before, self._settings = self._settings, read_settings(self)
+        if self._settings.input_timeout != before.input_timeout:
+            self._watchdog.timer_period_ns = int(self._settings.input_timeout * 1e9)
+        if self._tracker is not None and self._settings.design != before.design:
+            angle = self._tracker.bend_angle
+            self._tracker.change_design(self._settings.design)
+            if self._tracker.bend_angle != angle:
+                self.get_logger().warning(
+                    f'The unit was at {angle:.6g} rad, beyond the new stop; it is now taken to '
+                    f'be at {self._tracker.bend_angle:.6g} rad'
+                )
 
     # Topics
 
-    def _on_tensions(self, message: Float64MultiArray) -> None:
-        stamp = self.get_clock().now()
+    def _on_reading(self, reading: Reading) -> None:
+        settings = self._settings
+        stamp = reading.stamp or self.get_clock().now().to_msg()
+        tension_l, fault_l = calibrated('tension_l', reading.value_l, settings.cable_l)
+        tension_s, fault_s = calibrated('tension_s', reading.value_s, settings.cable_s)
+        fault = fault_l or fault_s
+        if fault:
+            self._on_drop(*fault)
+            return
+        begin = time.perf_counter()
         try:
-            tension_l, tension_s = messages.tensions_from_array(message)
             result = self._result(self._tracker, tension_l, tension_s)
         except TensionError as error:
-            self._refuse(str(error))
+            self._on_drop(Reason.BELOW_WEIGHT, str(error))
             return
-        self._latest = (tension_l, tension_s, stamp)
+        was_stale = self._health.stale
+        self._health.note_result(result, time.perf_counter() - begin)
+        self._watchdog.reset()
+        self._latest = (tension_l, tension_s, time.monotonic())
         self._invalid_since_latest = 0
-        self._publish(result, stamp)
+        self._outputs.publish(result, settings, stamp)
+        if was_stale:
+            self.get_logger().info('Valid tensions come again')
+        self._report_change(recovered=was_stale)
 
     def _result(
         self, tracker: StickSlipTracker | None, tension_l: float, tension_s: float
@@ -179,51 +337,77 @@ class Estimator(Node):
             return solve(self._settings.design, tension_l, tension_s)
         return tracker.update(tension_l, tension_s)
 
-    def _refuse(self, reason: str) -> None:
-        """Count and report a message that is no pair of tensions."""
-        self._invalid_count += 1
-        self._invalid_since_latest += 1
-        self._invalid_reason = reason
-        self._regime.publish(String(data=INVALID))
+    def _on_drop(self, reason: Reason, text: str) -> None:
+        """Count and report a message that gives no pair of tensions."""
+        self._health.note_drop(reason, text)
+        if reason.is_of_content:
+            self._invalid_since_latest += 1
+            self._outputs.say_regime(INVALID)
         self.get_logger().warning(
-            f'Invalid message on {self._tensions.topic_name} '
-            f'({self._invalid_count} so far): {reason}',
-            throttle_duration_sec=WARNING_PERIOD,
+            f'{"Invalid" if reason.is_of_content else "Dropped"} message on '
+            f'{self._input_names()} ({self._health.dropped.total()} so far): {text}',
+            **self._throttled,
         )
+        self._report_change()
 
-    def _publish(self, result: Equilibrium | TrackedState, stamp: Time) -> None:
-        """Publish all that is determined, and nothing else."""
-        design, stddev = self._settings.design, self._settings.tension_stddev
-        header = Header(stamp=stamp.to_msg(), frame_id=self._frame_id)
-        self._regime.publish(String(data=result.regime.value))
-        margin = None
-        if result.bend_angle is not None:
-            margin = slip_margin(design, result.tension_l, result.tension_s, result.bend_angle)
-            self._bend_angle.publish(Float64(data=result.bend_angle))
-            self._slip_margin.publish(Float64(data=margin))
-            angle_stddev = result.bend_angle_stddev(stddev)
-            if angle_stddev is not None:
-                pose = messages.unit_pose(design, result.bend_angle, angle_stddev, header)
-                self._unit_pose.publish(pose)
-        if result.pressure is not None:
-            self._joint_pressure.publish(Float64(data=result.pressure))
-        intervals = []
-        if result.regime is not Regime.SLACK:
-            intervals = admissible_angles(design, result.tension_l, result.tension_s)
-            self._admissible_angles.publish(messages.intervals_array(intervals))
-        if self._estimate is not None:
-            self._estimate.publish(messages.estimate(result, margin, intervals, stddev, header))
+    def _input_names(self) -> str:
+        return ' and '.join(subscription.topic_name for subscription in self._inputs)
 
     def _on_measured_bend_angle(self, message: Float64) -> None:
-        assert self._tracker is not None
+        if self._state != ACTIVE or self._tracker is None:
+            return
         try:
             self._tracker.reset(message.data)
         except BendAngleError as error:
             self._rejected_corrections += 1
             self.get_logger().warning(
                 f'Rejected a measured bend angle ({self._rejected_corrections} so far): {error}',
-                throttle_duration_sec=WARNING_PERIOD,
+                **self._throttled,
             )
+
+    # Health
+
+    def _on_stale_input(self) -> None:
+        """Say once that no more tensions come; what is drawn or remembered is not vouched for."""
+        self._watchdog.cancel()
+        self._lose_sight()
+        self._source.loosen()
+        if self._latest is not None:
+            self._outputs.say_regime(STALE)
+        self.get_logger().warning(
+            f'No valid tensions on {self._input_names()} for {self._settings.input_timeout:g} s',
+            **self._throttled,
+        )
+        self._report_change()
+
+    def _lose_sight(self) -> None:
+        """Take it that the unit may move unseen from now on."""
+        self._health.stale = True
+        if self._tracker is not None:
+            self._tracker.doubt()
+        self._outputs.clear_drawing()
+
+    def _on_diagnostics_time(self) -> None:
+        self._report()
+        self._health.begin_period()
+
+    def _report_change(self, *, recovered: bool = False) -> None:
+        """Report at once what got worse, or that tensions come again; the rest can wait.
+
+        So a regime that changes with every message does not flood ``/diagnostics``.
+        """
+        if recovered or self._health.level > self._reported_level:
+            self._report()
+
+    def _report(self) -> None:
+        self._reported_level = self._health.level
+        name = self.get_fully_qualified_name().lstrip('/')
+        publishers = {
+            subscription.topic_name: subscription.get_publisher_count()
+            for subscription in self._inputs
+        }
+        status = self._health.status(f'{name}: estimation', self._wiring.joint_name, publishers)
+        self._outputs.report(status)
 
     # Services
 
@@ -244,19 +428,17 @@ class Estimator(Node):
     def _on_solve_latest(
         self, _request: Trigger.Request, response: Trigger.Response
     ) -> Trigger.Response:
-        response.success = False
         if self._latest is None:
-            response.message = f'no valid tensions have come on {self._tensions.topic_name} yet'
-            if self._invalid_reason:
-                response.message += f'; the newest message was invalid: {self._invalid_reason}'
-            return response
-        tension_l, tension_s, stamp = self._latest
+            reason = f'no valid tensions have come on {self._input_names()} yet'
+            if self._health.last_drop:
+                reason += f'; the newest message was invalid: {self._health.last_drop}'
+            return messages.refuse(response, reason)
+        tension_l, tension_s, arrival = self._latest
         try:
             # A copy, since asking does not move the unit.
             result = self._result(copy.copy(self._tracker), tension_l, tension_s)
         except TensionError as error:  # valid for the design of then, not for that of now
-            response.message = str(error)
-            return response
+            return messages.refuse(response, str(error))
         stddev = self._settings.tension_stddev
         response.success = True
         response.message = json.dumps(
@@ -264,7 +446,7 @@ class Estimator(Node):
                 **result.as_dict(),
                 'bend_angle_stddev': result.bend_angle_stddev(stddev),
                 'pressure_stddev': result.pressure_stddev(stddev),
-                'age': (self.get_clock().now() - stamp).nanoseconds * 1e-9,
+                'age': time.monotonic() - arrival,
                 'invalid_since': self._invalid_since_latest,
                 'rejected_corrections': self._rejected_corrections,
             },
@@ -274,10 +456,10 @@ class Estimator(Node):
 
     def _on_reset(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         if self._tracker is None:
-            response.success = False
-            response.message = 'estimation is equilibrium, which remembers nothing to reset'
-        else:
-            self._tracker.reset(self._settings.initial_bend_angle)
-            response.success = True
-            response.message = f'the unit is at {self._settings.initial_bend_angle:.6g} rad'
+            return messages.refuse(
+                response, 'estimation is equilibrium, which remembers nothing to reset'
+            )
+        self._tracker.reset(self._settings.initial_bend_angle)
+        response.success = True
+        response.message = f'the unit is at {self._settings.initial_bend_angle:.6g} rad'
         return response

@@ -10,7 +10,7 @@ import random
 from bisect import bisect
 from typing import Any, NamedTuple
 
-from .number_parameter import NumberParameter
+from .number_parameter import NumberParameter, SettingError
 
 IMPLAUSIBLE_TENSION = 1e6
 """N; the height of a spike"""
@@ -34,10 +34,6 @@ class Fault(enum.Enum):
 
 STAMP_FAULTS = (Fault.OUT_OF_ORDER, Fault.REPEATED_STAMP)
 """Those that a message without a stamp cannot have."""
-
-
-class FaultError(ValueError):
-    """Settings of faults that do not fit together."""
 
 
 def _field(default: float, minimum: float, maximum: float, unit: str, description: str) -> Any:
@@ -65,10 +61,8 @@ class FaultSettings:
 
     Raises
     ------
-    NumberError
-        If a value is not allowed.
-    FaultError
-        If the probabilities together exceed 1.
+    SettingError
+        If a value is not allowed, or the probabilities together exceed 1.
     """
 
     seed: int = _field(0, 0, 2**31 - 1, '', 'the same seed makes the same faults and noise')
@@ -94,7 +88,7 @@ class FaultSettings:
             parameter.check(getattr(self, parameter.name))
         total = math.fsum(self.probability(fault) for fault in Fault)
         if total > 1.0:
-            raise FaultError(
+            raise SettingError(
                 f'the probabilities of faults are {total:.6g} together, allowed is at most 1, '
                 'since a message has one fault at most'
             )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from std_msgs.msg import Float64MultiArray, Header, MultiArrayDimension, MultiArrayLayout
@@ -12,7 +13,6 @@ from ..physics import (
     BendAngleError,
     Equilibrium,
     JointDesign,
-    TensionError,
     TrackedState,
     UnreachableError,
     tensions_for,
@@ -27,8 +27,9 @@ __all__ = [
     'fill_inverse_response',
     'fill_solve_response',
     'intervals_array',
+    'refuse',
+    'refuse_inverse',
     'refuse_solve',
-    'tensions_from_array',
     'unit_pose',
 ]
 
@@ -41,19 +42,6 @@ except ImportError as _error:
     INTERFACES_MISSING = str(_error)
 else:
     INTERFACES_MISSING = ''
-
-
-def tensions_from_array(message: Float64MultiArray) -> tuple[float, float]:
-    """T_l and T_s of a message ``[T_l, T_s]`` in N; its layout is not looked at.
-
-    Raises
-    ------
-    TensionError
-        If it does not have two values.
-    """
-    if len(message.data) != 2:
-        raise TensionError(f'{len(message.data)} values came, [tension_l, tension_s] is needed')
-    return message.data[0], message.data[1]
 
 
 def intervals_array(intervals: Sequence[tuple[float, float]]) -> Float64MultiArray:
@@ -155,10 +143,16 @@ def fill_solve_response(
     return response
 
 
-def refuse_solve(response: Solve.Response, reason: str) -> Solve.Response:
-    """Put the reason for no result into a response of ``~/solve``."""
+def refuse(response: Any, reason: str) -> Any:
+    """Put the reason for no result into the response of a service."""
     response.success = False
     response.message = reason
+    return response
+
+
+def refuse_solve(response: Solve.Response, reason: str) -> Solve.Response:
+    """Put the reason for no result into a response of ``~/solve``."""
+    refuse(response, reason)
     response.bend_angle = response.pressure = response.bend_angle_stddev = math.nan
     return response
 
@@ -175,17 +169,21 @@ def fill_inverse_response(
             total_tension=request.total_tension or None,
         )
     except (UnreachableError, BendAngleError) as error:
-        response.message = str(error)
+        return refuse_inverse(response, str(error))
     except TypeError:
-        response.message = (
+        return refuse_inverse(
+            response,
             f'pressure is {request.pressure!r} Pa and total_tension {request.total_tension!r} N: '
-            'give one of the two and leave the other 0'
+            'give one of the two and leave the other 0',
         )
-    else:
-        response.success = True
-        response.tension_l, response.tension_s = tensions
-        return response
-    response.success = False
+    response.success = True
+    response.tension_l, response.tension_s = tensions
+    return response
+
+
+def refuse_inverse(response: SolveInverse.Response, reason: str) -> SolveInverse.Response:
+    """Put the reason for no result into a response of ``~/solve_inverse``."""
+    refuse(response, reason)
     response.tension_l = response.tension_s = math.nan
     return response
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any
 
 
-class NumberError(ValueError):
-    """A parameter is not a number of the kind that is allowed."""
+class SettingError(ValueError):
+    """A parameter has a value that is not allowed; the text is for the user."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -32,12 +31,12 @@ class NumberParameter:
         """Whether it counts."""
         return isinstance(self.default, int)
 
-    def check(self, value: Any) -> None:
-        """Raise a `NumberError` for a value that is not allowed; NaN never is, nor is a bool."""
+    def check(self, value: object) -> None:
+        """Raise a `SettingError` for a value that is not allowed; NaN never is, nor is a bool."""
         kinds, name = (int, 'an integer') if self.is_integer else ((int, float), 'a number')
         if isinstance(value, bool) or not isinstance(value, kinds):
-            raise NumberError(
+            raise SettingError(
                 f'{self.name} is {value!r}, which is not {name}: allowed is {self.allowed}'
             )
         if not self.minimum <= value <= self.maximum:
-            raise NumberError(f'{self.name} is {value!r}, allowed is {self.allowed}')
+            raise SettingError(f'{self.name} is {value!r}, allowed is {self.allowed}')

@@ -11,33 +11,30 @@ import math
 from collections import Counter
 from typing import Any
 
-from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.clock import Clock, ClockType
 from rclpy.logging import get_logger
 from rclpy.node import Node
 
 from ..installed_files import installed_config
 from ..tension_file import TensionFileError, load_tensions
-from .faults import (
-    STAMP_FAULTS,
-    Fault,
-    FaultError,
-    FaultMaker,
-    FaultSettings,
-    Reading,
-    fault_parameters,
+from .faults import STAMP_FAULTS, Fault, FaultMaker, FaultSettings, Reading, fault_parameters
+from .number_parameter import NumberParameter, SettingError
+from .parameters import (
+    BIASES,
+    GAINS,
+    declare_cable_names,
+    declare_fixed,
+    declare_number,
+    declare_tension_source,
+    declare_wrench_component,
 )
-from .number_parameter import NumberError, NumberParameter
 from .program import StartError
-from .tension_kinds import TENSION_SOURCES, WRENCH_COMPONENTS
 from .tension_publishers import (
     ArrayPublisher,
     JointStatePublisher,
     TensionPublisher,
     WrenchPairPublisher,
 )
-
-CABLES = ('cable_l', 'cable_s')
 
 SHORTEST_TICK, LONGEST_TICK = 0.001, 0.1
 """s between two looks at what is due; a timer in Python is not good for more of them"""
@@ -57,16 +54,6 @@ AWAITED_SUBSCRIBERS = NumberParameter(
     '',
     'subscribers on each topic of tensions to wait for before the first reading',
 )
-GAINS = tuple(
-    NumberParameter(
-        f'{cable}.gain', 1.0, -1e9, 1e9, 'N', 'tension per raw unit: N = gain raw + bias; not 0'
-    )
-    for cable in CABLES
-)
-BIASES = tuple(
-    NumberParameter(f'{cable}.bias', 0.0, -1e9, 1e9, 'N', 'tension at which raw is 0')
-    for cable in CABLES
-)
 
 
 class PulleyDriver(Node):
@@ -74,10 +61,13 @@ class PulleyDriver(Node):
 
     def __init__(self) -> None:
         super().__init__('pulley_driver')
-        path = self._declare(
-            'file', '', 'CSV file of tensions in N to play; empty: the installed demo_tensions.csv'
+        path = declare_fixed(
+            self,
+            'file',
+            '',
+            'CSV file of tensions in N to play; empty: the installed demo_tensions.csv',
         )
-        self._loop = self._declare('loop', True, 'whether to begin anew after the last row')
+        self._loop = declare_fixed(self, 'loop', True, 'whether to begin anew after the last row')
         self._publisher = self._make_publisher()
         try:
             self._rate = self._declare_number(RATE)
@@ -92,14 +82,14 @@ class PulleyDriver(Node):
                 }
             )
             self._rows = load_tensions(path or installed_config('demo_tensions.csv'))
-        except (NumberError, FaultError, TensionFileError) as error:
+        except TensionFileError as error:
             raise StartError(str(error)) from None
         for gain, value in zip(GAINS, self._gains, strict=True):
             if value == 0.0:
-                raise StartError(f'{gain.name} is 0, but N = gain raw + bias needs another')
+                raise SettingError(f'{gain.name} is 0, but N = gain raw + bias needs another')
         for fault in STAMP_FAULTS:
             if settings.probability(fault) > 0.0 and isinstance(self._publisher, ArrayPublisher):
-                raise StartError(
+                raise SettingError(
                     f'{fault.value}_probability is {settings.probability(fault):g}, but '
                     'tension_source is array, of which no message has a stamp'
                 )
@@ -120,53 +110,15 @@ class PulleyDriver(Node):
 
     # Parameters
 
-    def _declare(self, name: str, default: Any, description: str, **more: Any) -> Any:
-        descriptor = ParameterDescriptor(description=description, read_only=True, **more)
-        return self.declare_parameter(name, default, descriptor).value
-
     def _declare_number(self, parameter: NumberParameter) -> Any:
-        # Before rclpy looks at it, whose errors do not say what is allowed.
-        override = self._parameter_overrides.get(parameter.name)
-        if override is not None:
-            parameter.check(override.value)
-        limits = {'from_value': parameter.minimum, 'to_value': parameter.maximum}
-        ranges: dict[str, Any] = (
-            {'integer_range': [IntegerRange(**limits)]}
-            if parameter.is_integer
-            # Of any type, so that 20 is as good as 20.0.
-            else {'floating_point_range': [FloatingPointRange(**limits)], 'dynamic_typing': True}
-        )
-        unit = f'[{parameter.unit}]: ' if parameter.unit else ''
-        return self._declare(
-            parameter.name, parameter.default, unit + parameter.description, **ranges
-        )
-
-    def _declare_choice(self, name: str, allowed: tuple[str, ...], description: str) -> str:
-        choices = ', '.join(allowed)
-        value: str = self._declare(name, allowed[0], f'{description}: {choices}')
-        if value not in allowed:
-            raise StartError(f'{name} is {value!r}, allowed is one of {choices}')
+        value = declare_number(self, parameter, read_only=True)
+        parameter.check(value)
         return value
 
     def _make_publisher(self) -> TensionPublisher:
-        source = self._declare_choice(
-            'tension_source', TENSION_SOURCES, 'the kind of messages that are published'
-        )
-        names = self._declare(
-            'cable_names',
-            list(CABLES),
-            'names of cable l and cable s in a joint_state',
-        )
-        if len(names) != 2 or len(set(names)) != 2 or '' in names:
-            raise StartError(
-                f'cable_names is {list(names)!r}, but two different names are needed, that of '
-                'cable l first'
-            )
-        component = self._declare_choice(
-            'wrench_component',
-            WRENCH_COMPONENTS,
-            'where in a wrench_pair the tension is; a norm is published as z',
-        )
+        source = declare_tension_source(self)
+        names = declare_cable_names(self)
+        component = declare_wrench_component(self)
         if source == 'array':
             return ArrayPublisher(self)
         if source == 'joint_state':

@@ -7,21 +7,49 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
 from rclpy.node import Node
 
 from ..design_file import default_design_path, load_design
 from ..physics import BendAngleError, DesignError, JointDesign, design_parameters
 from ..physics.admissible import check_bend_angle
+from ..physics.solver import MAX_TENSION
+from .number_parameter import NumberParameter, SettingError
+from .parameters import BIASES, CABLES, GAINS, declare_number
+from .tension_source import Calibration
 
 PREFIX = 'design.'
 
-MAX_TENSION_STDDEV = 1000.0
-"""Largest standard deviation of a tension in N that is taken."""
 
+MAX_TENSIONS = tuple(
+    NumberParameter(
+        *(f'{cable}.max_tension', 1000.0, 0.001, MAX_TENSION, 'N'),
+        'above it a tension is implausible',
+    )
+    for cable in CABLES
+)
 
-class SettingError(ValueError):
-    """A parameter has a value that is not allowed."""
+NUMBERS = (
+    NumberParameter(
+        *('tension_stddev', 0.01, 0.0, 1000.0, 'N'),
+        'standard deviation of each measured tension, the two independent',
+    ),
+    NumberParameter(
+        *('initial_bend_angle', 0.0, -0.5 * math.pi, 0.5 * math.pi, 'rad'),
+        'where a tracked unit is at the start and after ~/reset, within its stops',
+    ),
+    NumberParameter(
+        *('input_timeout', 0.5, 0.001, 3600.0, 's'),
+        'without valid tensions for so long the input is stale',
+    ),
+    NumberParameter(
+        *('max_skew', 0.005, 0.0, 10.0, 's'),
+        'wrench_pair: most that the stamps of two load cells may differ in a pair',
+    ),
+    *GAINS,
+    *BIASES,
+    *MAX_TENSIONS,
+)
+"""Those that may change while the node runs, beside the design's"""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -29,11 +57,16 @@ class Settings:
     """A valid set of those parameters that may change while the node runs."""
 
     design: JointDesign
-    tension_stddev: float = 0.01
-    initial_bend_angle: float = 0.0
+    tension_stddev: float
+    initial_bend_angle: float
+    input_timeout: float
+    max_skew: float
+    cable_l: Calibration
+    cable_s: Calibration
 
-    def changed(self, parameters: Iterable[Any]) -> Settings:
-        """Return the settings with these ROS parameters changed, foreign ones left alone.
+    @classmethod
+    def from_values(cls, values: Mapping[str, object]) -> Settings:
+        """Make settings of the values of all ROS parameters by name; foreign ones are let be.
 
         Raises
         ------
@@ -41,45 +74,50 @@ class Settings:
             If the whole is not valid; the text names the parameter, its value and what is
             allowed.
         """
-        values = {parameter.name: parameter.value for parameter in parameters}
-        design = {
-            name[len(PREFIX) :]: value for name, value in values.items() if name.startswith(PREFIX)
-        }
-        settings = dataclasses.replace(
-            self,
-            design=_design({**dataclasses.asdict(self.design), **design}),
-            tension_stddev=values.get('tension_stddev', self.tension_stddev),
-            initial_bend_angle=values.get('initial_bend_angle', self.initial_bend_angle),
-        )
+        design = _design(values)
+        number: dict[str, float] = {}
+        for parameter in NUMBERS:
+            value: Any = values[parameter.name]
+            parameter.check(value)
+            number[parameter.name] = float(value)
+        initial_bend_angle = number['initial_bend_angle']
         try:
-            return dataclasses.replace(
-                settings,
-                tension_stddev=_checked_stddev(settings.tension_stddev),
-                initial_bend_angle=check_bend_angle(settings.design, settings.initial_bend_angle),
-            )
+            check_bend_angle(design, initial_bend_angle)
         except BendAngleError as error:
             raise SettingError(f'initial_{error}') from None
+        return cls(
+            design=design,
+            tension_stddev=number['tension_stddev'],
+            initial_bend_angle=initial_bend_angle,
+            input_timeout=number['input_timeout'],
+            max_skew=number['max_skew'],
+            cable_l=_calibration('cable_l', number),
+            cable_s=_calibration('cable_s', number),
+        )
 
 
-def declare_settings(node: Node) -> Settings:
-    """Declare the parameters on a node and return what they are set to at the start.
+def declare_settings(node: Node) -> None:
+    """Declare the parameters on a node; `read_settings` has what they are set to.
 
     Design parameters that are left out come from the installed preliminary design, with a warning
-    if only a part is given.
+    if only a part is given. Values that are not allowed are kept, for `read_settings` to refuse.
 
     Raises
     ------
     SettingError
-        If a design parameter is unknown, or the whole is not valid.
+        If there is no design parameter of a name that was given.
     """
-    defaults = Settings(load_design(default_design_path()))
+    default = load_design(default_design_path())
     # rclpy has no public view of overrides that nobody declares; a misspelt key would be ignored.
     overrides = node._parameter_overrides
     if PREFIX[:-1] in overrides:
         value = overrides[PREFIX[:-1]].value
         raise SettingError(f'design is {value!r}, but its parameters have names: {PREFIX}mass')
-    settings = defaults.changed(overrides.values())
     given = [name[len(PREFIX) :] for name in overrides if name.startswith(PREFIX)]
+    known = {parameter.name for parameter in design_parameters()}
+    for name in given:
+        if name not in known:
+            _design({PREFIX + name: overrides[PREFIX + name].value})
     left_out = [
         parameter.name
         for parameter in design_parameters()
@@ -93,34 +131,36 @@ def declare_settings(node: Node) -> Settings:
     elif left_out:
         node.get_logger().warning(
             'The parameters give a part of the design only; taken from the preliminary design: '
-            + ', '.join(
-                f'{PREFIX}{name} = {getattr(settings.design, name)!r}' for name in left_out
-            )
+            + ', '.join(f'{PREFIX}{name} = {getattr(default, name)!r}' for name in left_out)
         )
     for parameter in design_parameters():
-        unit = f' [{parameter.unit}]' if parameter.unit else ''
-        _declare_number(
+        declare_number(
             node,
-            PREFIX + parameter.name,
-            getattr(defaults.design, parameter.name),
-            f'{parameter.symbol}{unit}: {parameter.description}',
-            (parameter.minimum, parameter.maximum),
+            NumberParameter(
+                name=PREFIX + parameter.name,
+                default=getattr(default, parameter.name),
+                minimum=parameter.minimum,
+                maximum=parameter.maximum,
+                unit=parameter.unit,
+                description=f'{parameter.description} ({parameter.symbol})',
+            ),
         )
-    _declare_number(
-        node,
-        'tension_stddev',
-        defaults.tension_stddev,
-        '[N]: standard deviation of each measured tension, the two independent',
-        (0.0, MAX_TENSION_STDDEV),
-    )
-    _declare_number(
-        node,
-        'initial_bend_angle',
-        defaults.initial_bend_angle,
-        '[rad]: where a tracked unit is at the start and after ~/reset, within its stops',
-        (-0.5 * math.pi, 0.5 * math.pi),
-    )
-    return settings
+    for number in NUMBERS:
+        declare_number(node, number)
+
+
+def read_settings(node: Node, changes: Iterable[Any] = ()) -> Settings:
+    """Return what the parameters of a node are set to, with these ROS parameters changed.
+
+    Raises
+    ------
+    SettingError
+        If the whole is not valid.
+    """
+    names = [number.name for number in NUMBERS]
+    names += [PREFIX + parameter.name for parameter in design_parameters()]
+    values = {name: node.get_parameter(name).value for name in names}
+    return Settings.from_values(values | {change.name: change.value for change in changes})
 
 
 def warn_of_unknown_parameters(node: Node) -> None:
@@ -132,32 +172,23 @@ def warn_of_unknown_parameters(node: Node) -> None:
         )
 
 
-def _declare_number(
-    node: Node, name: str, default: float, description: str, limits: tuple[float, float]
-) -> None:
-    low, high = limits
-    descriptor = ParameterDescriptor(
-        description=description,
-        additional_constraints=f'a number from {low:.6g} to {high:.6g}',
-        floating_point_range=[FloatingPointRange(from_value=low, to_value=high)],
-        # So that `1` is as good as `1.0`; Settings refuses what is not a number.
-        dynamic_typing=True,
-    )
-    node.declare_parameter(name, default, descriptor)
-
-
 def _design(values: Mapping[str, object]) -> JointDesign:
     try:
-        return JointDesign.from_mapping(values)
+        return JointDesign.from_mapping(
+            {
+                name[len(PREFIX) :]: value
+                for name, value in values.items()
+                if name.startswith(PREFIX)
+            }
+        )
     except DesignError as error:
         raise SettingError(f'{PREFIX if error.key else ""}{error}') from None
 
 
-def _checked_stddev(value: object) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise SettingError(f'tension_stddev is {value!r}, which is not a number in N')
-    if not 0.0 <= value <= MAX_TENSION_STDDEV:
+def _calibration(cable: str, number: Mapping[str, float]) -> Calibration:
+    calibration = Calibration(*(number[f'{cable}.{field}'] for field in Calibration._fields))
+    if calibration.gain == 0.0:
         raise SettingError(
-            f'tension_stddev is {value!r}, allowed is 0 to {MAX_TENSION_STDDEV:g} N'
+            f'{cable}.gain is 0.0, with which the tension does not follow what is measured'
         )
-    return float(value)
+    return calibration

@@ -116,6 +116,15 @@ class StickSlipTracker:
         self._assured = True
         self._tensions: tuple[float, float] | None = None
 
+    def doubt(self) -> None:
+        """Take it that the unit may have moved unseen, say while no tensions came.
+
+        The angle stays, but is not assured until a stop or a reset tells it.
+        """
+        self._assured = False
+        self._gradient = None
+        self._tensions = None
+
     def change_design(self, design: JointDesign) -> None:
         """Go on with another design, from the same angle.
 
@@ -139,9 +148,7 @@ class StickSlipTracker:
         """
         tension_l, tension_s = check_tensions(self._design, tension_l, tension_s)
         if tension_l == 0.0 or tension_s == 0.0:
-            self._assured = False
-            self._gradient = None
-            self._tensions = None
+            self.doubt()
             return TrackedState(Regime.SLACK, tension_l, tension_s, angle_assured=False)
         regime = Regime.HELD
         margin = margin_at(self._design, tension_l, tension_s, self._bend_angle)
@@ -261,6 +268,6 @@ class StickSlipTracker:
             forces=contact.forces if known else None,
             force_remainder=contact.remainder if known else None,
             branch_consistent=known,
-            bend_angle_gradient=self._gradient,
+            bend_angle_gradient=self._gradient if self._assured else None,
             pressure_gradient=pressure_gradient if known else None,
         )

@@ -1,0 +1,168 @@
+"""How the estimator is: what it counted, as a status for ``/diagnostics``."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from enum import IntEnum
+
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+
+from ..physics import Equilibrium, Regime, TrackedState
+from .tension_source import Reason
+
+
+class Level(IntEnum):
+    """Levels of a status, the worse the higher; a known fault is worse than silence."""
+
+    OK = 0
+    WARN = 1
+    STALE = 2
+    ERROR = 3
+
+
+_LEVELS = {
+    Level.OK: DiagnosticStatus.OK,
+    Level.WARN: DiagnosticStatus.WARN,
+    Level.STALE: DiagnosticStatus.STALE,
+    Level.ERROR: DiagnosticStatus.ERROR,
+}
+
+
+class Health:
+    """Counts what happens, since the start and since the last periodic report.
+
+    Every message received is used in a pair that was solved, dropped for a reason, or, of a pair
+    of load cells, still waiting for its partner. Times are those of a steady clock, in s.
+    """
+
+    def __init__(self) -> None:
+        self.received = 0
+        self.solved = 0
+        self.lost = 0
+        self.dropped: Counter[Reason] = Counter()
+        self.last_drop = ''
+        self.stale = False
+        self._since = time.monotonic()
+        self._newest: float | None = None
+        self._regime = ''
+        self._forget_period()
+
+    def _forget_period(self) -> None:
+        self._solved_before = self.solved
+        self._lost_before = self.lost
+        self._dropped_before = self.dropped.copy()
+        self._held = 0
+        self._inconsistent = 0
+        self._solve_time = self._longest_solve = 0.0
+        self._is_warned = False
+        self._is_implausible = False
+
+    @property
+    def level(self) -> Level:
+        """The worst since the last periodic report, or now if the input is stale."""
+        if self._is_implausible:
+            return Level.ERROR
+        if self.stale:
+            return Level.STALE
+        return Level.WARN if self._is_warned else Level.OK
+
+    def note_result(self, result: Equilibrium | TrackedState, solve_time: float) -> None:
+        """Count a pair that was solved, in so many seconds."""
+        self.solved += 1
+        self.stale = False
+        self._newest = time.monotonic()
+        self._regime = result.regime.value
+        self._solve_time += solve_time
+        self._longest_solve = max(self._longest_solve, solve_time)
+        if isinstance(result, Equilibrium) and result.regime is Regime.HELD:
+            self._held += 1
+            self._is_warned = True
+        if result.branch_consistent is False:
+            self._inconsistent += 1
+            self._is_warned = True
+
+    def note_drop(self, reason: Reason, text: str) -> None:
+        """Count a message that was dropped."""
+        self.dropped[reason] += 1
+        self.last_drop = text
+        self._is_warned = True
+        self._is_implausible |= reason is Reason.IMPLAUSIBLE
+
+    def note_lost(self, count: int) -> None:
+        """Count messages that were sent and never came."""
+        self.lost += count
+        self._is_warned = True
+
+    def begin_period(self) -> None:
+        """Forget what is reported only once."""
+        self._since = time.monotonic()
+        self._forget_period()
+
+    def status(self, name: str, hardware_id: str, publishers: dict[str, int]) -> DiagnosticStatus:
+        """Say how the estimator is.
+
+        Parameters
+        ----------
+        publishers : dict
+            Topic that tensions come on → number of its publishers.
+        """
+        now = time.monotonic()
+        age = None if self._newest is None else now - self._newest
+        solved = self.solved - self._solved_before
+        findings = self._findings(solved, age)
+        level = self.level
+        for topic, count in publishers.items():
+            if count > 1:
+                findings.append(f'{count} publishers on {topic}, one is expected')
+                level = max(level, Level.WARN)
+        if not findings:
+            findings = [self._regime or 'no tensions came yet']
+        period = now - self._since
+        values = {
+            'regime of newest tensions': self._regime,
+            'age of newest tensions [s]': '' if age is None else f'{age:.3f}',
+            'rate [Hz]': f'{solved / period:.1f}' if period > 0.0 else '',
+            'mean solve time [ms]': f'{self._solve_time / solved * 1e3:.3f}' if solved else '',
+            'longest solve time [ms]': f'{self._longest_solve * 1e3:.3f}' if solved else '',
+            'messages received': str(self.received),
+            'pairs solved': str(self.solved),
+            'messages lost on the way': str(self.lost),
+            **{f'dropped: {reason.value}': str(self.dropped[reason]) for reason in Reason},
+            'last drop': self.last_drop,
+            **{f'publishers on {topic}': str(count) for topic, count in publishers.items()},
+        }
+        return DiagnosticStatus(
+            level=_LEVELS[level],
+            name=name,
+            message='; '.join(findings),
+            hardware_id=hardware_id,
+            values=[KeyValue(key=key, value=value) for key, value in values.items()],
+        )
+
+    def _findings(self, solved: int, age: float | None) -> list[str]:
+        """What is not as it should be, the worst first."""
+        findings = []
+        dropped = self.dropped - self._dropped_before
+        if self._is_implausible:
+            findings.append('implausible tension')
+        if self.stale:
+            findings.append(
+                'no valid tensions came yet'
+                if age is None
+                else f'no valid tensions for {age:.1f} s'
+            )
+        if dropped:
+            reasons = ', '.join(f'{reason.value} {count}' for reason, count in dropped.items())
+            findings.append(f'dropped {reasons}; the last: {self.last_drop}')
+        if self.lost > self._lost_before:
+            findings.append(f'{self.lost - self._lost_before} messages lost on the way')
+        if self._held:
+            findings.append(
+                f'held, so that tensions do not determine the angle ({self._held} of {solved})'
+            )
+        if self._inconsistent:
+            findings.append(
+                f'forces ask for the other root of the model ({self._inconsistent} of {solved})'
+            )
+        return findings

@@ -1,0 +1,233 @@
+"""Messages of drivers as pairs of values: what is delivered, what is dropped, and why."""
+
+import math
+
+import pytest
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
+from hypothesis import given
+from hypothesis import strategies as st
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64MultiArray, Header
+
+from tendon_statics.node.tension_source import (
+    MOST_WAITING,
+    ArraySource,
+    Calibration,
+    JointStateSource,
+    Reading,
+    Reason,
+    StampOrder,
+    WrenchPairSource,
+    calibrated,
+    nanoseconds,
+)
+
+
+class Taken:
+    """Keeps what a source delivers and drops."""
+
+    def __init__(self):
+        self.readings: list[Reading] = []
+        self.drops: list[tuple[Reason, str]] = []
+
+    def deliver(self, reading):
+        self.readings.append(reading)
+
+    def drop(self, reason, text):
+        self.drops.append((reason, text))
+
+    @property
+    def values(self):
+        return [reading[:2] for reading in self.readings]
+
+    @property
+    def reasons(self):
+        return [reason for reason, _ in self.drops]
+
+
+@pytest.fixture
+def taken():
+    return Taken()
+
+
+def at(milliseconds: int) -> Time:
+    return Time(sec=milliseconds // 1000, nanosec=milliseconds % 1000 * 1_000_000)
+
+
+def joint_state(milliseconds, **efforts) -> JointState:
+    return JointState(
+        header=Header(stamp=at(milliseconds)),
+        name=list(efforts),
+        effort=[float(value) for value in efforts.values()],
+    )
+
+
+def wrench(milliseconds, x=0.0, y=0.0, z=0.0) -> WrenchStamped:
+    force = Vector3(x=float(x), y=float(y), z=float(z))
+    return WrenchStamped(header=Header(stamp=at(milliseconds)), wrench=Wrench(force=force))
+
+
+def send(source, topic, *sent):
+    for message in sent:
+        source.inputs[topic][1](message)
+
+
+def test_an_array_is_taken_as_it_is_and_has_no_stamp(taken):
+    source = ArraySource(taken.deliver, taken.drop)
+    for data in ([1.0, 2.0], [1.0], [], [1.0, 2.0, 3.0]):
+        send(source, 'tensions', Float64MultiArray(data=data))
+    assert taken.readings == [Reading(1.0, 2.0, None)]
+    assert taken.reasons == [Reason.WRONG_LENGTH] * 3
+    assert '1 values came' in taken.drops[0][1]
+
+
+def test_cables_are_found_by_name_in_any_order(taken):
+    source = JointStateSource(taken.deliver, taken.drop, ('left', 'right'))
+    send(
+        source,
+        'tensions',
+        joint_state(1, left=1, right=2),
+        joint_state(2, other=7, right=4, left=3),
+        joint_state(3, right=1),
+        JointState(header=Header(stamp=at(4)), name=['left', 'right'], effort=[1.0]),
+        JointState(header=Header(stamp=at(5)), name=['left', 'right']),
+        JointState(header=Header(stamp=at(6))),
+    )
+    assert taken.values == [(1.0, 2.0), (3.0, 4.0)]
+    assert [reading.stamp for reading in taken.readings] == [at(1), at(2)]
+    assert taken.reasons == [
+        *(Reason.MISSING_CABLE, Reason.WRONG_LENGTH, Reason.WRONG_LENGTH),
+        Reason.MISSING_CABLE,
+    ]
+    assert 'no left among the names: right' in taken.drops[0][1]
+    assert '2 names came with 1 efforts, right has none' in taken.drops[1][1]
+
+
+def test_stamps_out_of_order_and_repeated_ones_are_dropped(taken):
+    source = JointStateSource(taken.deliver, taken.drop, ('l', 's'))
+    send(source, 'tensions', *(joint_state(stamp, l=stamp, s=1) for stamp in (5, 7, 6, 7, 2, 8)))
+    assert taken.values == [(5.0, 1.0), (7.0, 1.0), (8.0, 1.0)]
+    assert taken.reasons == [
+        *(Reason.OUT_OF_ORDER, Reason.REPEATED_STAMP, Reason.OUT_OF_ORDER),
+    ]
+    assert 'the stamp is 0.006000000 s, after 0.007000000 s' in taken.drops[0][1]
+
+
+def test_a_driver_that_does_not_stamp_is_told_so(taken):
+    source = JointStateSource(taken.deliver, taken.drop, ('l', 's'))
+    send(source, 'tensions', joint_state(0, l=1, s=2), joint_state(0, l=1, s=2))
+    assert len(taken.readings) == 1
+    assert 'does not stamp' in taken.drops[0][1]
+
+
+def test_a_driver_with_an_earlier_clock_is_taken_once_the_input_is_stale():
+    """The same after one stamp far in the future; stamps that go backwards never are."""
+    for first in (1000, 10**9):
+        order = StampOrder()
+        assert order.objection(at(first)) is None
+        assert order.objection(at(10))
+        assert order.objection(at(11))
+        order.loosen()
+        assert order.objection(at(12))
+        assert order.objection(at(13)) is None
+        assert order.objection(at(13))
+        assert order.objection(at(12))
+        assert order.objection(at(14)) is None
+
+    order = StampOrder()
+    assert order.objection(at(1000)) is None
+    order.loosen()
+    assert all(order.objection(at(stamp)) for stamp in range(999, 0, -1))
+    order.forget()
+    assert order.objection(at(1)) is None
+
+
+@pytest.mark.parametrize(
+    ('component', 'expected'), [('x', 2.0), ('y', -3.0), ('z', 6.0), ('norm', 7.0)]
+)
+def test_the_component_of_the_force_is_taken(component, expected, taken):
+    source = WrenchPairSource(taken.deliver, taken.drop, component, lambda: 0.0)
+    send(source, 'tension_l', wrench(1, 2, -3, 6))
+    send(source, 'tension_s', wrench(1, 2, -3, 6))
+    assert taken.values == [(expected, expected)]
+
+
+def test_load_cells_are_paired_by_stamp_and_the_rest_is_dropped(taken):
+    source = WrenchPairSource(taken.deliver, taken.drop, 'z', lambda: 0.001)
+    send(source, 'tension_l', wrench(10, z=1), wrench(20, z=2), wrench(30, z=3))
+    send(source, 'tension_s', wrench(11, z=4), wrench(31, z=6))
+    assert taken.values == [(1.0, 4.0), (3.0, 6.0)]
+    # The later stamp, that is, when both had been measured.
+    assert [reading.stamp for reading in taken.readings] == [at(11), at(31)]
+    assert taken.reasons == [Reason.UNPAIRED]
+    assert 'tension_l of 0.020000000 s has no partner within max_skew, 0.001 s' in str(taken.drops)
+
+
+def test_of_a_load_cell_that_is_alone_no_more_waits_than_is_useful(taken):
+    source = WrenchPairSource(taken.deliver, taken.drop, 'z', lambda: 0.001)
+    send(source, 'tension_l', *(wrench(stamp, z=1) for stamp in range(1, MOST_WAITING + 51)))
+    assert taken.reasons == [Reason.UNPAIRED] * 50
+    source.forget()
+    assert len(taken.drops) == MOST_WAITING + 50
+    send(source, 'tension_l', wrench(1, z=1))
+    send(source, 'tension_s', wrench(1, z=2))
+    assert taken.values == [(1.0, 2.0)]
+
+
+def test_a_load_cell_that_was_in_the_future_pairs_again_when_it_began_anew(taken):
+    source = WrenchPairSource(taken.deliver, taken.drop, 'z', lambda: 0.001)
+    send(source, 'tension_l', wrench(10**9, z=1))
+    for stamp in range(1, 10):
+        send(source, 'tension_l', wrench(stamp, z=1))
+        send(source, 'tension_s', wrench(stamp, z=2))
+    assert not taken.readings
+    source.loosen()
+    for stamp in range(10, 20):
+        send(source, 'tension_l', wrench(stamp, z=1))
+        send(source, 'tension_s', wrench(stamp, z=2))
+    assert len(taken.readings) >= 8
+
+
+@given(
+    st.lists(st.tuples(st.booleans(), st.integers(0, 60)), max_size=80),
+    st.integers(0, 5),
+)
+def test_every_message_of_a_load_cell_is_paired_dropped_or_waiting(sent, skew):
+    """Whatever comes: each is accounted for once, and no pair is skewed by more than allowed."""
+    taken = Taken()
+    source = WrenchPairSource(taken.deliver, taken.drop, 'z', lambda: skew * 1e-3)
+    for is_l, stamp in sent:
+        topic = 'tension_l' if is_l else 'tension_s'
+        send(source, topic, wrench(stamp, z=stamp))
+    source.forget()
+    assert len(sent) == 2 * len(taken.readings) + len(taken.drops)
+    for reading in taken.readings:
+        assert abs(reading.value_l - reading.value_s) <= skew
+        assert nanoseconds(reading.stamp) == 1e6 * max(reading[:2])
+    times = [nanoseconds(reading.stamp) for reading in taken.readings]
+    assert times == sorted(set(times))
+
+
+@pytest.mark.parametrize(
+    ('value', 'reason'),
+    [
+        (math.nan, Reason.NOT_FINITE),
+        (math.inf, Reason.NOT_FINITE),
+        (-math.inf, Reason.NOT_FINITE),
+        (1e308, Reason.NOT_FINITE),
+        (1.0, Reason.NEGATIVE),
+        (-100.0, Reason.IMPLAUSIBLE),
+        (-1.0, None),
+        (0.25, None),
+        (-10.125, None),
+    ],
+)
+def test_what_is_measured_becomes_newtons_or_is_refused(value, reason):
+    tension, fault = calibrated('tension_l', value, Calibration(-20.0, 5.0, 207.5))
+    assert (fault[0] if fault else None) is reason
+    if fault:
+        assert 'tension_l is ' in fault[1]
+        assert 'allowed is 0 to 207.5 N' in fault[1]
+    else:
+        assert tension == -20.0 * value + 5.0

@@ -1,0 +1,75 @@
+"""Print what the estimator has, for docs/node.md: every topic, service and timer, and how many."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import rclpy
+from domain_coordinator import domain_id
+
+from tendon_statics.command_line.tables import markdown_table
+from tendon_statics.node.estimator import Estimator
+
+TIMERS = {'diagnostics': '1 s', 'watchdog': '`input_timeout`', 'signals': '0.5 s'}
+"""The third is that of the program, which looks whether it was told to end."""
+
+
+def entities(node: Estimator) -> dict[str, dict[str, str]]:
+    """Return what the graph says of a node: kind → name, with ~ for the node's own → type."""
+    asked = {
+        'publisher': node.get_publisher_names_and_types_by_node,
+        'subscription': node.get_subscriber_names_and_types_by_node,
+        'service': node.get_service_names_and_types_by_node,
+    }
+    own = node.get_fully_qualified_name() + '/'
+    return {
+        kind: {
+            name.replace(own, '~/'): ', '.join(types)
+            for name, types in ask(node.get_name(), node.get_namespace())
+        }
+        for kind, ask in asked.items()
+    }
+
+
+def main() -> None:
+    """Print the table."""
+    with estimator() as node:
+        rows = [
+            (kind, f'`{name}`', interface.replace('/msg/', '/').replace('/srv/', '/'))
+            for kind, of_kind in entities(node).items()
+            for name, interface in sorted(of_kind.items())
+        ]
+        assert len(list(node.timers)) == len(TIMERS) - 1
+    rows += [('timer', name, f'{period}, steady clock') for name, period in TIMERS.items()]
+    counts = Counter(kind for kind, _, _ in rows)
+    print(markdown_table(('entity', 'name', 'type'), rows))
+    numbers = [f'{count} {kind}{"s" if count > 1 else ""}' for kind, count in counts.items()]
+    print(f'\nIn all {", ".join(numbers)}.')
+
+
+@contextmanager
+def estimator(*parameters: str) -> Iterator[Estimator]:
+    """Make an estimator in this process, alone in a domain of its own, with parameters."""
+    os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+    arguments = [part for parameter in parameters for part in ('-p', parameter)]
+    quiet = ['--log-level', 'fatal', '--disable-rosout-logs']
+    with domain_id() as domain:
+        rclpy.init(args=['--ros-args', *quiet, *arguments], domain_id=domain)
+        try:
+            with contextlib.redirect_stderr(io.StringIO()):
+                node = Estimator()
+            try:
+                yield node
+            finally:
+                node.destroy_node()
+        finally:
+            rclpy.shutdown()
+
+
+if __name__ == '__main__':
+    main()
