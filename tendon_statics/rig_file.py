@@ -201,7 +201,11 @@ def _simulation(value: object, _folder: Path) -> dict[str, Any]:
 
 def _by_dotted_name(value: object) -> dict[str, Any]:
     parameters: dict[str, Any] = {}
-    for name, item in _flatten(value):
+    try:
+        pairs = _flatten(value)
+    except RecursionError:
+        raise ValueError('a mapping is in itself') from None
+    for name, item in pairs:
         if name in parameters:
             raise ValueError(f'{name} is given twice')
         parameters[name] = item
