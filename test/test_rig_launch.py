@@ -54,7 +54,7 @@ def test_the_example_rig_runs_in_simulation_and_ends_on_ctrl_c():
         named |= {'/proximal/tensions', '/gripper/tension_l', '/gripper/tension_s'}
         assert named <= audience.topics()
         assert not {'/distal/tensions', '/gripper/tensions'} & audience.topics()
-        # As a terminal does, to all; launch passes it on too.
+        # To launch alone, which passes it on.
         assert rig.end(signal.SIGINT) == 0
         books = re.findall(r'Sent: (\{.*\})', rig.output())
         assert len(books) == len(joints)
