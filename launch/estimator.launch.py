@@ -35,6 +35,12 @@ def generate_launch_description():
                 choices=['true', 'false'],
                 description='whether a robot_state_publisher shows the unit in RViz',
             ),
+            # First, since xacro may fail, and launch leaves running what it has started by then.
+            robot_state_publisher(
+                LaunchConfiguration('params_file'),
+                LaunchConfiguration('namespace'),
+                condition=IfCondition(LaunchConfiguration('robot_state_publisher')),
+            ),
             Node(
                 package='tendon_statics',
                 executable='estimator',
@@ -43,11 +49,6 @@ def generate_launch_description():
                 parameters=[LaunchConfiguration('params_file')],
                 remappings=[('tensions', LaunchConfiguration('tensions'))],
                 output='screen',
-            ),
-            robot_state_publisher(
-                LaunchConfiguration('params_file'),
-                LaunchConfiguration('namespace'),
-                condition=IfCondition(LaunchConfiguration('robot_state_publisher')),
             ),
         ]
     )

@@ -40,9 +40,8 @@ def generate_launch_description():
 def start_rig(context):
     arguments = context.launch_configurations
     joints = load_rig(arguments['rig_file'])
-    actions = [node(joint, 'estimator', joint.estimator_parameters()) for joint in joints]
-    if arguments['simulate'] == 'true':
-        actions += [node(joint, 'pulley_driver', joint.driver_parameters()) for joint in joints]
+    actions = []
+    # First, since xacro may fail, and launch leaves running what it has started by then.
     if arguments['robot_state_publisher'] == 'true':
         actions += [
             robot_state_publisher(
@@ -55,6 +54,9 @@ def start_rig(context):
             )
             for joint in joints
         ]
+    actions += [node(joint, 'estimator', joint.estimator_parameters()) for joint in joints]
+    if arguments['simulate'] == 'true':
+        actions += [node(joint, 'pulley_driver', joint.driver_parameters()) for joint in joints]
     return actions
 
 
