@@ -1,13 +1,15 @@
-"""Start one estimator; arguments: namespace, params_file, tensions (the topic to listen to)."""
+"""Start one estimator; arguments: namespace, params_file, tensions, robot_state_publisher."""
 
 from pathlib import Path
 
 from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
+from launch.conditions import IfCondition
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
-from launch import LaunchDescription
+from tendon_statics.launch_actions import robot_state_publisher
 
 
 def generate_launch_description():
@@ -26,6 +28,18 @@ def generate_launch_description():
                 'tensions',
                 default_value='tensions',
                 description='topic of std_msgs/Float64MultiArray [tension_l, tension_s] in N',
+            ),
+            DeclareLaunchArgument(
+                'robot_state_publisher',
+                default_value='false',
+                choices=['true', 'false'],
+                description='whether a robot_state_publisher shows the unit in RViz',
+            ),
+            # First, since xacro may fail, and launch leaves running what it has started by then.
+            robot_state_publisher(
+                LaunchConfiguration('params_file'),
+                LaunchConfiguration('namespace'),
+                condition=IfCondition(LaunchConfiguration('robot_state_publisher')),
             ),
             Node(
                 package='tendon_statics',

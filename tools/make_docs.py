@@ -13,19 +13,23 @@ import sys
 from contextlib import redirect_stdout
 from pathlib import Path
 
+import list_driver_parameters
 import list_entities
 
 from tendon_statics.command_line.main import main as run
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = ('README.md', 'docs/model.md', 'docs/node.md')
+PAGES = ('README.md', 'docs/model.md', 'docs/node.md', 'docs/rig.md')
 FIGURES = {
     'docs/hysteresis.svg': 'plot hysteresis',
     'docs/residual.svg': 'plot residual',
     'docs/unit.svg': 'plot unit',
 }
 
-TOOLS = {'tools/list_entities.py': list_entities.main}
+TOOLS = {
+    'tools/list_driver_parameters.py': list_driver_parameters.main,
+    'tools/list_entities.py': list_entities.main,
+}
 
 _BLOCK = re.compile(r'(<!-- made by: (.+?) -->\n).*?(<!-- end -->)', re.DOTALL)
 

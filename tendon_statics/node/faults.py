@@ -73,7 +73,7 @@ class FaultSettings:
     nan_burst_probability: float = _probability('that one cable begins to give NaN')
     nan_burst_length: int = _length(10, 'a burst of NaN')
     out_of_order_probability: float = _probability(
-        'that its stamp is earlier than that of a sound one before it'
+        'that its stamp is earlier than that of the newest sound one before it'
     )
     repeated_stamp_probability: float = _probability(
         'that its stamp is that of the newest sound one before it'

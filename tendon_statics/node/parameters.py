@@ -10,6 +10,7 @@ from rclpy.exceptions import InvalidParameterValueException
 from rclpy.node import Node
 
 from .number_parameter import NumberParameter, SettingError
+from .tension_kinds import TENSION_SOURCES
 from .tension_source import COMPONENTS
 
 CABLES = ('cable_l', 'cable_s')
@@ -53,7 +54,7 @@ def declare_tension_source(node: Node) -> str:
     return declare_choice(
         node,
         'tension_source',
-        ('array', 'joint_state', 'wrench_pair'),
+        TENSION_SOURCES,
         'kind of messages that tensions come in',
     )
 

@@ -45,7 +45,7 @@ CATCH_UP_TIME = 0.1
 RATE = NumberParameter(
     'rate', 10.0, 0.01, 20000.0, 'Hz', 'readings per second, of real time also with use_sim_time'
 )
-COUNT = NumberParameter('count', 0, 0, 2**62, '', 'readings after which it ends; 0: endless')
+COUNT = NumberParameter('count', 0, 0, 10**15, '', 'readings after which it ends; 0: endless')
 AWAITED_SUBSCRIBERS = NumberParameter(
     'awaited_subscribers',
     0,

@@ -1,0 +1,73 @@
+"""Start one estimator per joint; arguments: rig_file, simulate, robot_state_publisher."""
+
+from pathlib import Path
+
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, OpaqueFunction
+from launch_ros.actions import Node
+
+from tendon_statics.launch_actions import robot_state_publisher
+from tendon_statics.rig_file import load_rig
+
+
+def generate_launch_description():
+    share = Path(get_package_share_directory('tendon_statics'))
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument(
+                'rig_file',
+                default_value=str(share / 'config' / 'rig.yaml'),
+                description='YAML list of the joints, as the installed rig.yaml',
+            ),
+            DeclareLaunchArgument(
+                'simulate',
+                default_value='false',
+                choices=['true', 'false'],
+                description='whether stand-in pulley drivers take the place of the drivers',
+            ),
+            DeclareLaunchArgument(
+                'robot_state_publisher',
+                default_value='false',
+                choices=['true', 'false'],
+                description='whether a robot_state_publisher per joint shows the unit in RViz',
+            ),
+            OpaqueFunction(function=start_rig),
+        ]
+    )
+
+
+def start_rig(context):
+    arguments = context.launch_configurations
+    joints = load_rig(arguments['rig_file'])
+    actions = []
+    # First, since xacro may fail, and launch leaves running what it has started by then.
+    if arguments['robot_state_publisher'] == 'true':
+        actions += [
+            robot_state_publisher(
+                str(joint.design_file),
+                joint.namespace,
+                joint.joint_state_topic,
+                name=f'{joint.namespace}/unit',
+                parent=joint.frame_id,
+                joint_name=joint.joint_name,
+            )
+            for joint in joints
+        ]
+    actions += [node(joint, 'estimator', joint.estimator_parameters()) for joint in joints]
+    if arguments['simulate'] == 'true':
+        actions += [node(joint, 'pulley_driver', joint.driver_parameters()) for joint in joints]
+    return actions
+
+
+def node(joint, name, parameters):
+    return Node(
+        package='tendon_statics',
+        executable=name,
+        name=name,
+        namespace=joint.namespace,
+        # What else the design file holds for /** goes to both nodes too.
+        parameters=[str(joint.design_file), parameters],
+        remappings=list(joint.remappings.items()),
+        output='screen',
+    )

@@ -1,0 +1,181 @@
+"""`load_rig`: joints with all that the launch file needs, and errors that name key and value."""
+
+from pathlib import Path
+
+import pytest
+from designs import PRELIMINARY
+
+from tendon_statics import default_design_path
+from tendon_statics.installed_files import installed_config
+from tendon_statics.rig_file import RigFileError, load_rig
+
+MINIMAL = '- namespace: left\n  design_file: unit.yaml\n'
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A folder with a design and a recording in it."""
+    design = default_design_path().read_text(encoding='utf-8')
+    (tmp_path / 'unit.yaml').write_text(design, encoding='utf-8')
+    (tmp_path / 'run.csv').write_text('tension_l,tension_s\n1,2\n')
+    return tmp_path
+
+
+def write(folder: Path, text: str) -> Path:
+    path = folder / 'rig.yaml'
+    path.write_text(text, encoding='utf-8')
+    return path
+
+
+def load(folder: Path, text: str):
+    return load_rig(write(folder, text))
+
+
+def test_the_least_that_a_joint_needs(folder):
+    (joint,) = load(folder, MINIMAL)
+    assert joint.namespace == 'left'
+    assert joint.design == PRELIMINARY
+    assert joint.joint_state_topic == 'estimator/joint_state'
+    assert joint.remappings == {}
+    estimator = joint.estimator_parameters()
+    assert estimator['design.mass'] == PRELIMINARY.mass
+    assert estimator['tension_source'] == 'array'
+    assert estimator['frame_id'] == 'left/joint'
+    assert joint.driver_parameters() == {'tension_source': 'array'}
+
+
+def test_all_that_a_joint_can_have(folder):
+    (joint,) = load(
+        folder,
+        MINIMAL
+        + """
+  tension_source: joint_state
+  parameters:
+    cable_names: [a, b]
+    cable_l: {gain: 2, bias: 1e-2}
+    cable_s.gain: -1.5
+    frame_id: world
+    joint_name: elbow
+    markers: true
+  remappings:
+    tensions: actuators/measured_js
+    ~/joint_state: statics/measured_js
+  recording: run.csv
+  simulation: {rate: 100, nan_burst_length: 3, noise_stddev: .nan}
+""",
+    )
+    estimator, driver = joint.estimator_parameters(), joint.driver_parameters()
+    for parameters in (estimator, driver):
+        assert parameters['tension_source'] == 'joint_state'
+        assert parameters['cable_names'] == ['a', 'b']
+        assert parameters['cable_l.gain'] == 2
+        assert parameters['cable_l.bias'] == 0.01
+        assert parameters['cable_s.gain'] == -1.5
+        assert parameters['markers'] is True
+    assert (joint.frame_id, joint.joint_name) == ('world', 'elbow')
+    assert estimator['frame_id'] == 'world'
+    assert not {'rate', 'file', 'nan_burst_length'} & set(estimator)
+    assert driver['file'] == str(folder / 'run.csv')
+    assert driver['rate'] == 100
+    assert type(driver['nan_burst_length']) is int
+    assert joint.remappings['tensions'] == 'actuators/measured_js'
+    assert joint.joint_state_topic == 'statics/measured_js'
+
+
+def test_paths_start_from_the_folder_of_the_file_and_end_absolute(folder, monkeypatch):
+    (folder / 'rigs').mkdir()
+    text = f'{MINIMAL}  recording: ../run.csv\n'.replace('unit.yaml', str(folder / 'unit.yaml'))
+    write(folder / 'rigs', text)
+    monkeypatch.chdir(folder)
+    (joint,) = load_rig('rigs/rig.yaml')
+    assert joint.design_file == folder / 'unit.yaml'
+    assert joint.recording.is_absolute()
+    assert joint.recording.samefile(folder / 'run.csv')
+
+
+def test_joints_come_in_the_order_of_the_file(folder):
+    namespaces = ['b', 'a', '/arm_1/c/']
+    text = ''.join(MINIMAL.replace('left', namespace) for namespace in namespaces)
+    assert [joint.namespace for joint in load(folder, text)] == ['b', 'a', 'arm_1/c']
+
+
+def test_the_installed_example_has_one_joint_of_each_kind():
+    joints = load_rig(installed_config('rig.yaml'))
+    assert sorted(joint.tension_source for joint in joints) == [
+        *('array', 'joint_state', 'wrench_pair')
+    ]
+
+
+@pytest.mark.parametrize(
+    ('text', 'key', 'named'),
+    [
+        ('', '', ['not a list of joints']),
+        ('[]', '', ['not a list of joints']),
+        ('namespace: left', '', ['not a list of joints']),
+        ('- [', '', ['not valid YAML']),
+        ('- left', '', ["joint 1 is 'left'", 'namespace, design_file']),
+        ('- design_file: unit.yaml', 'namespace', ['joint 1: namespace is missing']),
+        ('- namespace: left', 'design_file', ['joint 1: design_file is missing']),
+        (MINIMAL + '  colour: red', 'colour', ["colour is 'red'", 'no such key', 'remappings']),
+        (MINIMAL + '  namespace: x', '', ['namespace is given a second time in line 3']),
+        (MINIMAL * 2, 'namespace', ["joint 2: namespace is 'left'", 'another joint']),
+        (
+            MINIMAL + MINIMAL.replace('left', '/left/'),
+            'namespace',
+            ["joint 2: namespace is 'left'", 'another joint'],
+        ),
+        (
+            MINIMAL.replace('left', '3rd'),
+            'namespace',
+            ["namespace is '3rd'", 'begin with a digit'],
+        ),
+        (MINIMAL.replace('left', '""'), 'namespace', ["namespace is ''"]),
+        (MINIMAL.replace('left', 'a//b'), 'namespace', ["namespace is 'a//b'"]),
+        (MINIMAL.replace('left', '7'), 'namespace', ['namespace is 7']),
+        (MINIMAL.replace('unit', 'no'), 'design_file', ["is 'no.yaml'", 'cannot be read']),
+        (MINIMAL.replace('unit.yaml', 'run.csv'), 'design_file', ['run.csv']),
+        (MINIMAL.replace('unit.yaml', '[]'), 'design_file', ['is []', 'path of a file']),
+        (
+            MINIMAL + '  tension_source: can',
+            'tension_source',
+            ["tension_source is 'can'", 'array, joint_state, wrench_pair'],
+        ),
+        (MINIMAL + '  recording: no.csv', 'recording', ["is 'no.csv'", 'cannot be read']),
+        (MINIMAL + '  recording: unit.yaml', 'recording', ['no column tension_l']),
+        (MINIMAL + '  parameters: [1]', 'parameters', ['is [1]', 'names of parameters']),
+        (MINIMAL + '  parameters: {a: }', 'parameters', ['a is None', 'number, text']),
+        (MINIMAL + '  parameters: {a: [1, b]}', 'parameters', ["a is [1, 'b']", 'one kind']),
+        (MINIMAL + '  parameters: {a: []}', 'parameters', ['a is []']),
+        (MINIMAL + '  parameters: {a: {b: 1}, a.b: 2}', 'parameters', ['a.b is given twice']),
+        (MINIMAL + '  parameters: &a {b: *a}', 'parameters', ['is in itself']),
+        (MINIMAL + '  parameters: {design: {mass: 1}}', 'parameters', ['key design_file']),
+        (MINIMAL + '  parameters: {design.mass: 1}', 'parameters', ['key design_file']),
+        (MINIMAL + '  parameters: {tension_source: array}', 'parameters', ['key of its own']),
+        (MINIMAL + '  simulation: {file: run.csv}', 'simulation', ['key of its own: recording']),
+        (MINIMAL + '  simulation: fast', 'simulation', ["is 'fast'"]),
+        (MINIMAL + '  remappings: {tensions: 3}', 'remappings', ["{'tensions': 3}", 'mapping']),
+        (MINIMAL + '  remappings: [a, b]', 'remappings', ['mapping of names']),
+    ],
+)
+def test_errors_name_file_joint_key_value_and_what_is_allowed(folder, text, key, named):
+    path = write(folder, text)
+    with pytest.raises(RigFileError) as raised:
+        load_rig(path)
+    message = str(raised.value)
+    assert message.startswith(f'{path}: ')
+    assert '\n' not in message
+    assert raised.value.key == key
+    for part in named:
+        assert part in message
+
+
+def test_a_design_that_is_not_valid_is_named_with_its_own_key(folder):
+    text = (folder / 'unit.yaml').read_text().replace('mass: 0.0', 'mass: -0.0')
+    (folder / 'unit.yaml').write_text(text)
+    with pytest.raises(RigFileError, match=r'unit\.yaml: design\.mass is -0\.0.* 0 to 100 kg'):
+        load(folder, MINIMAL)
+
+
+def test_a_file_that_cannot_be_read_is_named(tmp_path):
+    with pytest.raises(RigFileError, match=r'missing\.yaml: it cannot be read'):
+        load_rig(tmp_path / 'missing.yaml')

@@ -1,0 +1,73 @@
+"""`ros2 launch tendon_statics rig.launch.py`, where ROS 2 has launch (its wheels do not)."""
+
+import json
+import re
+import shutil
+import signal
+import subprocess
+
+import pytest
+from rclpy.node import Node
+from ros_programs import Program, spinning, wait_for
+from tendon_statics_interfaces.msg import Estimate
+
+from tendon_statics.installed_files import installed_config
+from tendon_statics.rig_file import load_rig
+
+LAUNCH = ('ros2', 'launch', 'tendon_statics', 'rig.launch.py')
+
+pytestmark = pytest.mark.skipif(
+    shutil.which('ros2') is None
+    or subprocess.run(('ros2', 'launch', '--help'), capture_output=True).returncode != 0,
+    reason='there is no ros2 launch',
+)
+
+
+class Audience(Node):
+    """Keeps the estimates of every joint."""
+
+    def __init__(self, context, namespaces):
+        super().__init__('audience', context=context)
+        self.estimates = {namespace: [] for namespace in namespaces}
+        for namespace, estimates in self.estimates.items():
+            self.create_subscription(
+                Estimate, f'{namespace}/estimator/estimate', estimates.append, 1000
+            )
+
+    def topics(self):
+        return {name for name, _ in self.get_topic_names_and_types()}
+
+
+def test_the_example_rig_runs_in_simulation_and_ends_on_ctrl_c():
+    """Every joint estimates from its own kind of driver, under the names that it was given."""
+    joints = load_rig(installed_config('rig.yaml'))
+    namespaces = [joint.namespace for joint in joints]
+    with (
+        spinning(lambda context: Audience(context, namespaces)) as audience,
+        Program.running_command([*LAUNCH, 'simulate:=true']) as rig,
+    ):
+        wait_for('estimates of every joint', lambda: all(audience.estimates.values()))
+        for joint in joints:
+            (frame,) = {e.header.frame_id for e in audience.estimates[joint.namespace]}
+            assert frame == joint.frame_id
+        named = {'/distal/actuators/measured_js', '/distal/statics/measured_js'}
+        named |= {'/proximal/tensions', '/gripper/tension_l', '/gripper/tension_s'}
+        assert named <= audience.topics()
+        assert not {'/distal/tensions', '/gripper/tensions'} & audience.topics()
+        # To launch alone, which passes it on.
+        assert rig.end(signal.SIGINT) == 0
+        books = re.findall(r'Sent: (\{.*\})', rig.output())
+        assert len(books) == len(joints)
+        assert all(json.loads(book)['messages'] > 0 for book in books)
+        assert rig.output().count('process has finished cleanly') == 2 * len(joints)
+        assert 'does not have' not in rig.output()
+
+
+def test_a_bad_rig_file_starts_nothing_and_is_one_line(tmp_path):
+    path = tmp_path / 'rig.yaml'
+    path.write_text('- namespace: left\n  design_file: missing.yaml\n')
+    with Program.running_command([*LAUNCH, f'rig_file:={path}']) as rig:
+        assert rig.wait() == 1
+        (line,) = [line for line in rig.output().splitlines() if 'ERROR' in line]
+        assert f'{path}: joint 1: design_file is' in line
+        assert 'process started' not in rig.output()
