@@ -96,7 +96,10 @@ def test_a_load_cell_alone_gives_nothing_and_is_counted(driver):
         assert driver.answer(*SLIPPING) == 'equilibrium'
         assert len(driver.regimes) == count + 1
         wait_for('the count', lambda: latest_values(driver)['dropped: unpaired'] == '150')
-        wait_for('the warning', lambda: 'has no partner within max_skew, 0 s' in program.output())
+        wait_for(
+            'the warning',
+            lambda: 'has no partner of its own within max_skew, 0 s' in program.output(),
+        )
 
 
 def test_each_cable_has_its_own_unit(listener):

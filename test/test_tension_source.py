@@ -167,7 +167,23 @@ def test_load_cells_are_paired_by_stamp_and_the_rest_is_dropped(taken):
     # The later stamp, that is, when both had been measured.
     assert [reading.stamp for reading in taken.readings] == [at(11), at(31)]
     assert taken.reasons == [Reason.UNPAIRED]
-    assert 'tension_l of 0.020000000 s has no partner within max_skew, 0.001 s' in str(taken.drops)
+    assert 'tension_l of 0.020000000 s has no partner of its own within max_skew, 0.001 s' in str(
+        taken.drops
+    )
+
+
+def test_a_lost_message_does_not_shift_the_pairs_after_it(taken):
+    """Though the stamps of two readings are nearer than max_skew."""
+    source = WrenchPairSource(taken.deliver, taken.drop, 'z', lambda: 0.005)
+    for stamp in range(0, 100, 2):
+        if stamp != 50:
+            send(source, 'tension_l', wrench(stamp, z=stamp))
+        if stamp != 70:
+            send(source, 'tension_s', wrench(stamp + 1 if stamp > 80 else stamp, z=stamp))
+    mixed = [pair for pair in taken.values if pair[0] != pair[1]]
+    assert len(mixed) <= 2
+    assert taken.reasons == [Reason.UNPAIRED] * 2
+    assert taken.values[-1] == (98.0, 98.0)
 
 
 def test_of_a_load_cell_that_is_alone_no_more_waits_than_is_useful(taken):

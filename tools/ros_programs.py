@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import signal
 import subprocess
@@ -63,6 +64,11 @@ class Program:
         """What it has written so far, on both streams."""
         self._output.seek(0)
         return self._output.read()
+
+    def sent(self) -> dict[str, int]:
+        """What a driver that has ended says that it sent: readings, messages, by fault."""
+        (line,) = [line for line in self.output().splitlines() if 'Sent: ' in line]
+        return json.loads(line.split('Sent: ', 1)[1])
 
     def memory(self) -> float:
         """Memory that it holds, in MB."""
@@ -131,10 +137,11 @@ def spinning(make_node: Callable[[Context], NodeType]) -> Iterator[NodeType]:
 class Listener(Node):
     """Keeps all that the estimator publishes, publishes tensions and calls its services.
 
-    Tensions are published as messages of the kind `tension_source`.
+    Tensions are published as messages of the kind `tension_source`; with None they are left to a
+    driver.
     """
 
-    def __init__(self, context: Context, tension_source: str = 'array') -> None:
+    def __init__(self, context: Context, tension_source: str | None = 'array') -> None:
         super().__init__('listener', context=context)
         self._tension_source = tension_source
         self.regimes: list[str] = []
@@ -148,7 +155,8 @@ class Listener(Node):
         self.estimates: list[Estimate] = []
         self.diagnostics: list[DiagnosticStatus] = []
         self.measured_bend_angle = self.create_publisher(Float64, 'measured_bend_angle', 10)
-        kinds = {
+        kinds: dict[str | None, dict[str, type]] = {
+            None: {},
             'array': {'tensions': Float64MultiArray},
             'joint_state': {'tensions': JointState},
             'wrench_pair': {'tension_l': WrenchStamped, 'tension_s': WrenchStamped},
@@ -210,7 +218,7 @@ class Listener(Node):
         """Run the installed estimator, connected with this node in both directions."""
         source = (
             ()
-            if self._tension_source == 'array'
+            if self._tension_source in (None, 'array')
             else ('-p', f'tension_source:={self._tension_source}')
         )
         arguments = (*source, *ros_arguments)
@@ -246,8 +254,7 @@ class Listener(Node):
         wait_for('the estimator', found)
         if not greet:
             return
-        for store in self._stores:
-            store.clear()
+        self.forget()
         deadline = time.monotonic() + TIME_LIMIT
         while not all(kept.values()):
             assert time.monotonic() < deadline, f'no answer on all of {", ".join(kept)}'
@@ -277,8 +284,16 @@ class Listener(Node):
                 (*numbers, self.joint_pressures), before, known, strict=True
             ):
                 wait_for('the numbers of a held unit', lambda s=store, n=count + more: len(s) == n)
+        self.forget()
+
+    def forget(self) -> None:
+        """Forget all that came of results."""
         for store in self._stores:
             store.clear()
+
+    def hears_all(self) -> bool:
+        """Whether something came of results on every topic."""
+        return all(self._stores)
 
     def connect_to_services(self, program: Program) -> None:
         """Wait until the estimator's services are there; it may be in any state."""
@@ -320,6 +335,11 @@ class Listener(Node):
 
         wait_for(f'a status with {parts}', lambda: bool(newest()))
         return newest()[0]
+
+    def count(self, key: str) -> int:
+        """Return a count of the newest report on ``/diagnostics``."""
+        (value,) = [item.value for item in self.diagnostics[-1].values if item.key == key]
+        return int(value)
 
     def wait_for_node(self, name: str, namespace: str = '/') -> None:
         """Wait until a node is known by name, which is later than its topics are."""

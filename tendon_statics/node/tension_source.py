@@ -155,7 +155,8 @@ class JointStateSource(TensionSource):
 class WrenchPairSource(TensionSource):
     """Two ``geometry_msgs/WrenchStamped``, one of each load cell, paired by stamp.
 
-    The reading has the later of the two stamps.
+    The reading has the later of the two stamps. One message has one partner, the nearest that is
+    free when the later of the two comes.
 
     Parameters
     ----------
@@ -171,6 +172,7 @@ class WrenchPairSource(TensionSource):
         super().__init__(deliver, drop, 'tension_l', 'tension_s')
         self._component = COMPONENTS[component]
         self._max_skew = max_skew
+        self._paired = dict.fromkeys(self._orders, -math.inf)
         self._waiting: dict[str, deque[tuple[int, float, Time]]] = {
             topic: deque() for topic in self._orders
         }
@@ -182,6 +184,7 @@ class WrenchPairSource(TensionSource):
     def forget(self) -> None:
         """As in `TensionSource`; what still waits is dropped."""
         super().forget()
+        self._paired = dict.fromkeys(self._orders, -math.inf)
         for topic, waiting in self._waiting.items():
             while waiting:
                 self._drop_first(topic)
@@ -201,7 +204,7 @@ class WrenchPairSource(TensionSource):
         self._pair()
 
     def _pair(self) -> None:
-        """Deliver every pair, and drop what comes before the other side's oldest."""
+        """Deliver every pair, and drop what has no partner any more."""
         at_l, at_s = self._waiting.values()
         skew = self._max_skew() * NANOSECONDS
         while at_l and at_s:
@@ -209,14 +212,23 @@ class WrenchPairSource(TensionSource):
             if abs(difference) > skew:
                 self._drop_first('tension_l' if difference < 0 else 'tension_s')
                 continue
+            # Where max_skew exceeds the period, one lost message must not shift all pairs after
+            # it: what is nearer to a message that already has a partner is left out.
+            if abs(at_l[0][0] - self._paired['tension_s']) < abs(difference):
+                self._drop_first('tension_l')
+                continue
+            if abs(at_s[0][0] - self._paired['tension_l']) < abs(difference):
+                self._drop_first('tension_s')
+                continue
             (stamp_l, value_l, time_l), (stamp_s, value_s, time_s) = at_l.popleft(), at_s.popleft()
+            self._paired = {'tension_l': stamp_l, 'tension_s': stamp_s}
             self._deliver(Reading(value_l, value_s, time_l if stamp_l >= stamp_s else time_s))
 
     def _drop_first(self, topic: str) -> None:
         stamp, _, _ = self._waiting[topic].popleft()
         self._drop(
             Reason.UNPAIRED,
-            f'{topic} of {_seconds(stamp)} s has no partner within max_skew, '
+            f'{topic} of {_seconds(stamp)} s has no partner of its own within max_skew, '
             f'{self._max_skew():g} s',
         )
 

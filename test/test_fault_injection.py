@@ -1,0 +1,254 @@
+"""Faults of a rig, made on purpose over real ROS processes: what comes out, and what is kept."""
+
+import itertools
+import signal
+from contextlib import contextmanager
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticStatus
+from rcl_interfaces.msg import ParameterType, ParameterValue
+from ros_programs import Listener, Program, spinning, wait_for
+
+from tendon_statics import Regime
+
+ROWS = [(1.0, 2.6 + 0.001 * index) for index in range(300)]
+"""All driven to the stop, so that something comes on every topic."""
+
+KINDS = ('array', 'joint_state', 'wrench_pair')
+TOPICS = dict.fromkeys(KINDS, ('tensions',)) | {'wrench_pair': ('tension_l', 'tension_s')}
+STAMP_FAULTS = ('out_of_order_probability:=0.02', 'repeated_stamp_probability:=0.02')
+FAULTS = (
+    *('dropout_probability:=0.05', 'nan_burst_probability:=0.005', 'nan_burst_length:=8'),
+    *('wrong_length_probability:=0.03', 'slack_probability:=0.005', 'slack_length:=10'),
+    *('implausible_probability:=0.01', 'seed:=7'),
+)
+
+
+@pytest.fixture
+def observer():
+    """A listener that leaves the tensions to drivers."""
+    with spinning(lambda context: Listener(context, None)) as node:
+        yield node
+
+
+@pytest.fixture
+def recording(tmp_path):
+    path = tmp_path / 'recording.csv'
+    lines = [f'{tension_l!r},{tension_s!r}' for tension_l, tension_s in ROWS]
+    path.write_text('\n'.join(['tension_l,tension_s', *lines]))
+    return path
+
+
+def driver(recording, *parameters: str, kind: str = 'array'):
+    """A stand-in driver as a process, which begins when it is heard."""
+    values = (f'file:={recording}', f'tension_source:={kind}', 'awaited_subscribers:=1')
+    arguments = [part for value in (*values, *parameters) for part in ('-p', value)]
+    return Program.running('pulley_driver', '--ros-args', *arguments)
+
+
+@contextmanager
+def estimator_of(observer, recording, *, kind: str = 'array', reliable=True):
+    """An estimator that is known to hear a driver and to be heard on all topics."""
+    values = [f'tension_source:={kind}', 'max_skew:=0.0005']
+    if reliable:  # so that every message counts
+        values += [
+            f'qos_overrides./{topic}.subscription.reliability:=reliable' for topic in TOPICS[kind]
+        ]
+    arguments = [part for value in values for part in ('-p', value)]
+    with observer.estimator(*arguments, greet=False) as program:
+        with driver(recording, 'rate:=200.0', kind=kind) as first:
+            wait_for('the estimator to be heard', observer.hears_all)
+            first.end()
+            sent = first.sent()['messages']
+        wait_for('the last', lambda: observer.count('messages received') >= sent)
+        observer.forget()
+        yield program
+
+
+def reports(observer) -> None:
+    """Wait for a report that was made after this was called."""
+    since = len(observer.diagnostics)
+    wait_for('two reports', lambda: len(observer.diagnostics) >= since + 2)
+
+
+def counts(observer) -> dict[str, int]:
+    """What the newest report counts."""
+    reports(observer)
+    return {
+        item.key: int(item.value)
+        for item in observer.diagnostics[-1].values
+        if item.value.isdigit() and not item.key.startswith('publishers')
+    }
+
+
+@pytest.mark.parametrize('kind', KINDS)
+def test_of_all_faults_at_once_each_is_counted_and_nothing_good_is_lost(kind, observer, recording):
+    faults = FAULTS if kind == 'array' else FAULTS + STAMP_FAULTS
+    with estimator_of(observer, recording, kind=kind) as program:
+        before, memory = counts(observer), program.memory()
+        with driver(recording, 'rate:=500.0', 'count:=1500', *faults, kind=kind) as made:
+            wait_for('the last message', lambda: 'Sent: ' in made.output())
+            sent = made.sent()
+        wait_for(
+            'the books to balance',
+            lambda: (
+                observer.count('messages received')
+                == before['messages received'] + sent['messages']
+            ),
+        )
+        after = counts(observer)
+        grown = {key: after[key] - before[key] for key in after}
+        good = sent['good'] + sent['slack']
+        assert sent['good'] > 1000
+        assert min(sent[key] for key in ('slack', 'nan_burst', 'wrong_length', 'implausible')) > 5
+
+        assert grown['pairs solved'] == good
+        assert grown['messages lost on the way'] == 0
+        assert grown['dropped: not finite'] == sent['nan_burst']
+        assert grown['dropped: implausible'] == sent['implausible']
+        halves = 1 if kind == 'wrench_pair' else 0
+        if kind == 'wrench_pair':
+            assert grown['dropped: unpaired'] == sent['wrong_length']
+        else:
+            wrong = grown['dropped: wrong length'] + grown['dropped: missing cable']
+            assert wrong == sent['wrong_length']
+        if kind != 'array':
+            each = 1 + halves
+            # A repeated stamp is an earlier one if a message of NaN came in between.
+            late = grown['dropped: out of order'] + grown['dropped: repeated stamp']
+            assert late == each * (sent['out_of_order'] + sent['repeated_stamp'])
+            assert min(sent['out_of_order'], sent['repeated_stamp']) > 5
+
+        wait_for('every estimate', lambda: len(observer.estimates) == good)
+        taken = [(e.tension_l, e.tension_s) for e in observer.estimates if e.regime != 'slack']
+        assert set(taken) <= set(ROWS)
+        # In the order in which they were sent, round and round.
+        places = [ROWS.index(pair) for pair in taken]
+        rounds = sum(later < earlier for earlier, later in itertools.pairwise(places))
+        assert rounds <= 1500 // len(ROWS)
+        invalid = sent['nan_burst'] + sent['implausible'] + (1 - halves) * sent['wrong_length']
+        wait_for('every regime', lambda: observer.regimes.count('invalid') == invalid)
+        assert len(observer.regimes) == good + invalid
+        assert len(observer.bend_angles) == sent['good']
+        assert program.memory() < memory + 10.0
+
+
+def test_a_driver_that_is_killed_is_missed_and_taken_again(observer, recording):
+    kind = 'joint_state'
+    with estimator_of(observer, recording, kind=kind):
+        wait_for('the first driver to be missed', lambda: observer.stale_regimes)
+        observer.stale_regimes.clear()
+        for number in (1, 2):
+            observer.forget()
+            with driver(recording, 'rate:=200.0', kind=kind) as program:
+                wait_for('estimates', lambda: len(observer.estimates) > 50)
+                since = len(observer.diagnostics)
+                program.end(signal.SIGKILL)
+            observer.wait_for_status(DiagnosticStatus.STALE, 'no valid tensions', since=since)
+            wait_for('that it is said', lambda n=number: len(observer.stale_regimes) == n)
+            known = len(observer.regimes)
+            reports(observer)
+            assert len(observer.stale_regimes) == number
+            assert len(observer.regimes) == len(observer.estimates) == known
+            assert set(observer.regimes) == {Regime.DRIVEN_TO_STOP.value}
+
+
+def test_a_burst_of_nan_longer_than_the_timeout_is_stale_once(observer, recording):
+    burst = ('nan_burst_probability:=0.002', 'nan_burst_length:=400', 'seed:=3')
+    with estimator_of(observer, recording):
+        wait_for('the first driver to be missed', lambda: observer.stale_regimes)
+        observer.forget()
+        observer.stale_regimes.clear()
+        with driver(recording, 'rate:=500.0', 'count:=1500', *burst) as made:
+            wait_for('the last message', lambda: 'Sent: ' in made.output())
+            sent = made.sent()
+        assert sent['nan_burst'] >= 400
+        wait_for('every regime', lambda: len(observer.regimes) == 1500)
+        wait_for('every angle', lambda: len(observer.bend_angles) == sent['good'])
+        assert observer.regimes.count('invalid') == sent['nan_burst']
+        bursts = sent['nan_burst'] // 400
+        wait_for('the end to be seen', lambda: len(observer.stale_regimes) >= bursts)
+
+
+def test_a_storm_is_weathered(observer, recording):
+    """10 kHz for 5 s: what is too much for a process is counted as lost, nothing piles up."""
+    with estimator_of(observer, recording, reliable=False) as program:
+        before, memory = counts(observer), program.memory()
+        with driver(recording, 'rate:=10000.0', 'count:=50000') as made:
+            wait_for('the last message', lambda: 'Sent: ' in made.output(), time_limit=60.0)
+            sent = made.sent()
+        # The newest tensions are not far behind: the queue is short.
+        last = ROWS[(sent['readings'] - 1) % len(ROWS)]
+        wait_for(
+            'the last tensions',
+            lambda: (observer.estimates[-1].tension_l, observer.estimates[-1].tension_s) == last,
+        )
+        after = counts(observer)
+        grown = {key: after[key] - before[key] for key in after}
+        # The first few may go before the estimator knows the driver.
+        came = grown['messages received'] + grown['messages lost on the way']
+        assert 0.9 * sent['messages'] <= came <= sent['messages']
+        assert grown['pairs solved'] == grown['messages received'] > 1000
+        wait_for('every regime', lambda: len(observer.regimes) == grown['pairs solved'])
+        assert program.memory() < memory + 20.0
+        observer.forget()
+        with driver(recording, 'rate:=100.0', 'count:=100'):
+            wait_for('all of a quiet driver', lambda: len(observer.estimates) >= 90)
+        assert 'Traceback' not in program.output()
+
+
+def test_of_two_drivers_at_once_no_pair_is_mixed_and_both_are_noticed(
+    observer, recording, tmp_path
+):
+    other = tmp_path / 'other.csv'
+    other.write_text('tension_l,tension_s\n3.0,1.0\n')
+    with estimator_of(observer, recording):
+        since = len(observer.diagnostics)
+        with driver(recording, 'rate:=100.0'), driver(other, 'rate:=100.0'):
+            observer.wait_for_status(
+                DiagnosticStatus.WARN, '2 publishers on /tensions', since=since
+            )
+            wait_for('estimates', lambda: len(observer.estimates) > 200)
+        pairs = {(e.tension_l, e.tension_s) for e in observer.estimates}
+        assert (3.0, 1.0) in pairs
+        assert pairs <= {*ROWS, (3.0, 1.0)}
+        assert observer.count('messages lost on the way') == 0
+
+
+def test_a_bad_parameter_in_the_middle_of_a_stream_changes_nothing(observer, recording):
+    def of(value: float) -> ParameterValue:
+        return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
+
+    with (
+        estimator_of(observer, recording) as program,
+        driver(recording, 'rate:=500.0', 'count:=1500') as made,
+    ):
+        wait_for('the stream', lambda: len(observer.estimates) > 50)
+        for refused in range(20):
+            result = observer.set_estimator_parameters(
+                design__max_bend_angle=of(0.1), design__mass=of(-1.0 - refused)
+            )
+            assert not result.successful
+            assert 'design.mass' in result.reason
+        assert 'Sent: ' not in made.output()
+        wait_for('every estimate', lambda: len(observer.estimates) == 1500)
+        assert len(set(observer.bend_angles)) == 1
+        assert program.process.poll() is None
+
+
+def test_stamps_that_go_backwards_are_dropped_and_the_good_ones_kept():
+    from builtin_interfaces.msg import Time
+
+    with (
+        spinning(lambda context: Listener(context, 'joint_state')) as listener,
+        listener.estimator('-p', 'input_timeout:=60.0'),
+    ):
+        base = listener.get_clock().now().nanoseconds // 10**9 + 100
+        good = [Time(sec=base + second) for second in range(100)]
+        for stamp in good:
+            listener.publish(1.0, 3.0, stamp=stamp)
+            listener.publish(1.0, 2.9, stamp=Time(sec=base - stamp.sec % 50))
+        wait_for('the good ones', lambda: len(listener.estimates) == 100)
+        assert [estimate.header.stamp for estimate in listener.estimates] == good
+        assert set(listener.regimes) == {'driven_to_stop'}
+        wait_for('the count', lambda: listener.count('dropped: out of order') == 100)
