@@ -121,26 +121,32 @@ def test_a_driver_that_does_not_stamp_is_told_so(taken):
     assert 'does not stamp' in taken.drops[0][1]
 
 
-def test_a_driver_with_an_earlier_clock_is_taken_once_the_input_is_stale():
-    """The same after one stamp far in the future; stamps that go backwards never are."""
-    for first in (1000, 10**9):
-        order = StampOrder()
-        assert order.objection(at(first)) is None
-        assert order.objection(at(10))
-        assert order.objection(at(11))
-        order.loosen()
-        assert order.objection(at(12))
-        assert order.objection(at(13)) is None
-        assert order.objection(at(13))
-        assert order.objection(at(12))
-        assert order.objection(at(14)) is None
-
+@pytest.mark.parametrize('first', [1000, 10**9])
+def test_a_driver_with_an_earlier_clock_is_taken_once_the_input_is_stale(first):
+    """The same after one stamp far in the future."""
     order = StampOrder()
-    assert order.objection(at(1000)) is None
+    assert order.objection(at(first)) is None
+    assert all(order.objection(at(stamp)) for stamp in range(10, 20))
     order.loosen()
-    assert all(order.objection(at(stamp)) for stamp in range(999, 0, -1))
-    order.forget()
-    assert order.objection(at(1)) is None
+    assert order.objection(at(20))
+    assert order.objection(at(21))
+    assert order.objection(at(22)) is None
+    assert order.objection(at(22))
+    assert order.objection(at(21))
+    assert order.objection(at(23)) is None
+
+
+def test_stamps_that_do_not_rise_are_never_taken():
+    """Going backwards, standing still, or to and fro; until the order is forgotten."""
+    for early in (range(999, 0, -1), [5] * 999, [5, 6] * 500):
+        order = StampOrder()
+        assert order.objection(at(1000)) is None
+        for stamp in early:
+            order.loosen()
+            assert order.objection(at(stamp))
+        assert order.objection(at(1001)) is None
+        order.forget()
+        assert order.objection(at(1)) is None
 
 
 @pytest.mark.parametrize(
@@ -186,7 +192,7 @@ def test_a_load_cell_that_was_in_the_future_pairs_again_when_it_began_anew(taken
     for stamp in range(10, 20):
         send(source, 'tension_l', wrench(stamp, z=1))
         send(source, 'tension_s', wrench(stamp, z=2))
-    assert len(taken.readings) >= 8
+    assert len(taken.readings) >= 7
 
 
 @given(

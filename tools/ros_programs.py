@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ament_index_python.packages import get_package_prefix
+from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from geometry_msgs.msg import PoseWithCovarianceStamped
+from geometry_msgs.msg import PoseWithCovarianceStamped, Vector3, Wrench, WrenchStamped
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState, GetState
 from rcl_interfaces.msg import Parameter, ParameterValue, SetParametersResult
@@ -26,7 +27,7 @@ from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64, Float64MultiArray, String
+from std_msgs.msg import Float64, Float64MultiArray, Header, String
 from std_srvs.srv import Trigger
 from tendon_statics_interfaces.msg import Estimate
 from tendon_statics_interfaces.srv import Solve, SolveInverse
@@ -62,6 +63,12 @@ class Program:
         """What it has written so far, on both streams."""
         self._output.seek(0)
         return self._output.read()
+
+    def memory(self) -> float:
+        """Memory that it holds, in MB."""
+        lines = Path(f'/proc/{self.process.pid}/status').read_text().splitlines()
+        (line,) = [line for line in lines if line.startswith('VmRSS:')]
+        return int(line.split()[1]) / 1024.0
 
     def end(self, number: int = signal.SIGINT, time_limit: float = TIME_LIMIT) -> int:
         """Send a signal and return the exit code."""
@@ -122,10 +129,14 @@ def spinning(make_node: Callable[[Context], NodeType]) -> Iterator[NodeType]:
 
 
 class Listener(Node):
-    """Keeps all that the estimator publishes, publishes tensions and calls its services."""
+    """Keeps all that the estimator publishes, publishes tensions and calls its services.
 
-    def __init__(self, context: Context) -> None:
+    Tensions are published as messages of the kind `tension_source`.
+    """
+
+    def __init__(self, context: Context, tension_source: str = 'array') -> None:
         super().__init__('listener', context=context)
+        self._tension_source = tension_source
         self.regimes: list[str] = []
         self.stale_regimes: list[str] = []
         self.bend_angles: list[float] = []
@@ -137,7 +148,15 @@ class Listener(Node):
         self.estimates: list[Estimate] = []
         self.diagnostics: list[DiagnosticStatus] = []
         self.measured_bend_angle = self.create_publisher(Float64, 'measured_bend_angle', 10)
-        self.tensions = self.create_publisher(Float64MultiArray, 'tensions', 1000)
+        kinds = {
+            'array': {'tensions': Float64MultiArray},
+            'joint_state': {'tensions': JointState},
+            'wrench_pair': {'tension_l': WrenchStamped, 'tension_s': WrenchStamped},
+        }
+        self.tension_publishers = [
+            self.create_publisher(message_type, topic, 1000)
+            for topic, message_type in kinds[tension_source].items()
+        ]
         self._clients_by_name = {
             name: self.create_client(service_type, f'estimator/{name}')
             for name, service_type in (
@@ -189,7 +208,14 @@ class Listener(Node):
     @contextmanager
     def estimator(self, *ros_arguments: str, greet: bool = True) -> Iterator[Program]:
         """Run the installed estimator, connected with this node in both directions."""
-        arguments = ('--ros-args', *ros_arguments) if ros_arguments else ()
+        source = (
+            ()
+            if self._tension_source == 'array'
+            else ('-p', f'tension_source:={self._tension_source}')
+        )
+        arguments = (*source, *ros_arguments)
+        if arguments:
+            arguments = ('--ros-args', *arguments)
         with Program.running('estimator', *arguments) as program:
             self.connect(program, greet=greet)
             yield program
@@ -209,7 +235,9 @@ class Listener(Node):
 
         def found() -> bool:
             assert program.process.poll() is None, program.output()
-            return self.tensions.get_subscription_count() > 0 and all(
+            return all(
+                publisher.get_subscription_count() > 0 for publisher in self.tension_publishers
+            ) and all(
                 subscription.get_publisher_count() > 0
                 for subscription in self._answered
                 if subscription.topic_name in kept
@@ -218,6 +246,8 @@ class Listener(Node):
         wait_for('the estimator', found)
         if not greet:
             return
+        for store in self._stores:
+            store.clear()
         deadline = time.monotonic() + TIME_LIMIT
         while not all(kept.values()):
             assert time.monotonic() < deadline, f'no answer on all of {", ".join(kept)}'
@@ -271,9 +301,15 @@ class Listener(Node):
         """Return the state of the estimator's lifecycle."""
         return self.call('get_state', GetState.Request()).current_state.label
 
-    def wait_for_status(self, level: bytes, *parts: str) -> DiagnosticStatus:
-        """Wait until a new status of a level comes whose message has these parts."""
-        begin = len(self.diagnostics)
+    def wait_for_status(
+        self, level: bytes, *parts: str, since: int | None = None
+    ) -> DiagnosticStatus:
+        """Wait for a status of a level whose message has these parts.
+
+        It is the first after the number `since` of those that have come; of those to come, if
+        that is not given.
+        """
+        begin = len(self.diagnostics) if since is None else since
 
         def newest() -> list[DiagnosticStatus]:
             return [
@@ -289,9 +325,26 @@ class Listener(Node):
         """Wait until a node is known by name, which is later than its topics are."""
         wait_for(name, lambda: (name, namespace) in self.get_node_names_and_namespaces())
 
-    def publish(self, *data: float) -> None:
-        """Publish one message of tensions."""
-        self.tensions.publish(Float64MultiArray(data=[float(value) for value in data]))
+    def publish(self, *data: float, stamp: Time | None = None) -> None:
+        """Publish one reading; unless it is an array, stamped with the present time or `stamp`."""
+        values = [float(value) for value in data]
+        if self._tension_source == 'array':
+            self.tension_publishers[0].publish(Float64MultiArray(data=values))
+            return
+        header = Header(stamp=stamp or self.get_clock().now().to_msg())
+        if self._tension_source == 'joint_state':
+            names = ['cable_l', 'cable_s']
+            message = JointState(header=header, name=names[: len(values)], effort=values)
+            self.tension_publishers[0].publish(message)
+            return
+        for publisher, value in zip(self.tension_publishers, values, strict=True):
+            publisher.publish(WrenchStamped(header=header, wrench=_wrench(value)))
+
+    def publish_one(self, tension: float) -> None:
+        """Publish what the load cell of cable l says, and nothing of the other."""
+        header = Header(stamp=self.get_clock().now().to_msg())
+        message = WrenchStamped(header=header, wrench=_wrench(tension))
+        self.tension_publishers[0].publish(message)
 
     def answer(self, *data: float) -> str:
         """Publish one message and wait until its regime, the first thing said of it, is here."""
@@ -353,3 +406,7 @@ class Listener(Node):
         """Return descriptors of parameters of the estimator."""
         request = DescribeParameters.Request(names=list(names))
         return self.call('describe_parameters', request).descriptors
+
+
+def _wrench(tension: float) -> Wrench:
+    return Wrench(force=Vector3(z=tension))

@@ -32,6 +32,7 @@ from . import messages
 from .health import Health, Level
 from .number_parameter import SettingError
 from .outputs import INVALID, STALE, Outputs
+from .program import StartError
 from .settings import (
     Settings,
     declare_settings,
@@ -102,8 +103,9 @@ class Estimator(LifecycleNode):
         self.add_post_set_parameters_callback(self._take_parameters)
         if self._wiring.autostart:
             read_settings(self)  # raises with the reason, where a transition could only fail
-            self.trigger_configure()
-            self.trigger_activate()
+            for trigger in (self.trigger_configure, self.trigger_activate):
+                if trigger() != TransitionCallbackReturn.SUCCESS:
+                    raise StartError('a transition of its lifecycle failed')
 
     def _make_source(self) -> TensionSource:
         if self._wiring.tension_source == 'joint_state':
@@ -225,6 +227,7 @@ class Estimator(LifecycleNode):
 
     def on_activate(self, _state: LifecycleState) -> TransitionCallbackReturn:
         """Begin to estimate."""
+        self._let_pass_what_waits()
         self._health.begin_period()
         self._watchdog.timer_period_ns = int(self._settings.input_timeout * 1e9)
         self._watchdog.reset()
@@ -232,6 +235,18 @@ class Estimator(LifecycleNode):
         self._state = ACTIVE
         self.get_logger().info(f'Ready: {self._wiring.estimation} from {self._input_names()}')
         return TransitionCallbackReturn.SUCCESS
+
+    def _let_pass_what_waits(self) -> None:
+        """Take the messages that came while inactive, which are not of the present."""
+        for subscription in self._inputs:
+            with subscription.handle:
+                for _ in range(INPUT_DEPTH):
+                    taken = subscription.handle.take_message(
+                        subscription.msg_type, subscription.raw
+                    )
+                    if taken is None:
+                        break
+                    subscription.callback(*taken)
 
     def on_deactivate(self, _state: LifecycleState) -> TransitionCallbackReturn:
         """Do and publish nothing until activated again."""

@@ -18,6 +18,9 @@ NANOSECONDS = 1_000_000_000
 MOST_WAITING = 100
 """Messages of one load cell that wait for those of the other"""
 
+RISING = 3
+"""Stamps in a row"""
+
 COMPONENTS: dict[str, Callable[[Vector3], float]] = {
     'z': lambda force: force.z,
     'x': lambda force: force.x,
@@ -222,8 +225,8 @@ class StampOrder:
     """Objects to a stamp that is not later than the newest before it.
 
     A driver that begins anew with an earlier clock would be shut out for ever, and so would one
-    after a single stamp far in the future. So once the input is stale, `loosen`, a stamp need
-    only be later than that of the message before.
+    after a single stamp far in the future. So once the input is stale, `loosen`, the last of
+    `RISING` stamps in a row that rise is taken, however early they are.
     """
 
     def __init__(self) -> None:
@@ -232,21 +235,25 @@ class StampOrder:
     def forget(self) -> None:
         """Take any stamp next."""
         self._newest: int | None = None
-        self._loose = False
+        self._before = 0
+        self._rising = 0
+        self._is_loose = False
 
     def loosen(self) -> None:
-        """Compare with the message before, until a stamp is in order again."""
-        self._loose = True
+        """Take rising stamps also if they are early, until a stamp is in order again."""
+        if not self._is_loose:
+            self._is_loose = True
+            self._rising = 0
 
     def objection(self, stamp: Time) -> tuple[Reason, str] | None:
         """Return what is against this stamp, None if it is in order."""
         time, newest = nanoseconds(stamp), self._newest
-        if newest is None or time > newest:
+        self._rising = self._rising + 1 if time > self._before else 1
+        self._before = time
+        if newest is None or time > newest or (self._is_loose and self._rising >= RISING):
             self._newest = time
-            self._loose = False
+            self._is_loose = False
             return None
-        if self._loose:
-            self._newest = time
         if time == 0:
             text = 'the stamp is 0: the driver does not stamp its messages'
         else:

@@ -1,0 +1,195 @@
+"""What the estimator says about itself on /diagnostics, alone and over ROS."""
+
+import math
+
+from designs import PRELIMINARY
+from diagnostic_msgs.msg import DiagnosticStatus
+from ros_programs import Listener, Program, spinning, wait_for
+
+from tendon_statics import solve
+from tendon_statics.node.health import Health, Level
+from tendon_statics.node.tension_source import Reason
+from tendon_statics.physics import StickSlipTracker
+
+HELD, SLIPPING, STOP = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0)
+OK, WARN, ERROR, STALE = (
+    *(DiagnosticStatus.OK, DiagnosticStatus.WARN),
+    *(DiagnosticStatus.ERROR, DiagnosticStatus.STALE),
+)
+
+
+def said(health: Health, **publishers: int) -> tuple[bytes, str]:
+    status = health.status('estimator: estimation', 'bend', publishers)
+    assert status.name == 'estimator: estimation'
+    assert status.hardware_id == 'bend'
+    return status.level, status.message
+
+
+def values(status: DiagnosticStatus) -> dict[str, str]:
+    return {item.key: item.value for item in status.values}
+
+
+def test_the_worst_since_the_last_report_counts():
+    health = Health()
+    assert said(health) == (OK, 'no tensions came yet')
+    health.note_result(solve(PRELIMINARY, *SLIPPING), 1e-4)
+    assert said(health) == (OK, 'equilibrium')
+    health.note_result(solve(PRELIMINARY, *HELD), 1e-4)
+    health.note_result(solve(PRELIMINARY, *STOP), 1e-4)
+    level, message = said(health)
+    assert level == WARN
+    assert message == 'held, so that tensions do not determine the angle (1 of 3)'
+    health.note_drop(Reason.IMPLAUSIBLE, 'tension_l is 2000.0 N')
+    level, message = said(health)
+    assert level == ERROR
+    assert message.startswith('implausible tension; dropped implausible 1; the last: tension_l')
+    health.begin_period()
+    assert said(health) == (OK, 'driven_to_stop')
+
+
+def test_a_known_fault_says_more_than_silence():
+    health = Health()
+    health.stale = True
+    assert said(health) == (STALE, 'no valid tensions came yet')
+    health.note_drop(Reason.NOT_FINITE, 'tension_l is nan N')
+    assert said(health)[0] == STALE
+    assert 'dropped not finite 1' in said(health)[1]
+    health.note_drop(Reason.IMPLAUSIBLE, 'tension_l is 2000.0 N')
+    assert said(health)[0] == ERROR
+    assert health.level is Level.ERROR
+    health.note_result(solve(PRELIMINARY, *SLIPPING), 1e-4)
+    assert not health.stale
+
+
+def test_with_memory_held_is_as_it_should_be():
+    health = Health()
+    health.note_result(StickSlipTracker(PRELIMINARY).update(*HELD), 1e-4)
+    assert said(health) == (OK, 'held')
+
+
+def test_a_result_of_the_other_branch_is_a_warning():
+    # So little tension that friction does not lift the unit's weight.
+    result = solve(PRELIMINARY, 0.05, 0.15)
+    assert result.branch_consistent is False
+    health = Health()
+    health.note_result(result, 1e-4)
+    assert said(health) == (WARN, 'forces ask for the other root of the model (1 of 1)')
+
+
+def test_two_publishers_and_lost_messages_are_warnings():
+    health = Health()
+    health.note_result(solve(PRELIMINARY, *SLIPPING), 1e-4)
+    status = health.status('n: t', 'bend', {'/tensions': 2})
+    assert (status.level, status.message) == (WARN, '2 publishers on /tensions, one is expected')
+    assert values(status)['publishers on /tensions'] == '2'
+    health.note_lost(3)
+    assert said(health) == (WARN, '3 messages lost on the way')
+    health.begin_period()
+    assert said(health)[0] == OK
+    assert values(health.status('n: t', 'bend', {}))['messages lost on the way'] == '3'
+
+
+def test_counts_are_kept_by_reason():
+    health = Health()
+    for reason in Reason:
+        health.note_drop(reason, f'a {reason.value} message')
+    found = values(health.status('n: t', 'bend', {}))
+    assert all(found[f'dropped: {reason.value}'] == '1' for reason in Reason)
+    assert found['last drop'] == 'a unpaired message'
+    assert found['pairs solved'] == '0'
+    assert found['age of newest tensions [s]'] == ''
+
+
+def test_a_quiet_start_a_stream_and_its_end(listener):
+    """STALE at once when tensions stop, and OK at once when they come again."""
+    with listener.estimator('-p', 'input_timeout:=0.2', '-p', 'joint_name:=elbow') as program:
+        since = len(listener.diagnostics)
+        assert listener.answer(*SLIPPING) == 'equilibrium'
+        stale = listener.wait_for_status(STALE, 'no valid tensions for 0.2 s', since=since)
+        assert stale.name == 'estimator: estimation'
+        assert stale.hardware_id == 'elbow'
+        assert values(stale)['regime of newest tensions'] == 'equilibrium'
+        assert 'No valid tensions on /tensions for 0.2 s' in program.output()
+        since = len(listener.diagnostics)
+        assert listener.answer(*SLIPPING) == 'equilibrium'
+
+        def recovered() -> list[DiagnosticStatus]:
+            return [status for status in listener.diagnostics[since:] if status.level != STALE]
+
+        wait_for('that tensions come again', recovered)
+        status = recovered()[0]
+        assert float(values(status)['age of newest tensions [s]']) < 0.2
+        assert float(values(status)['mean solve time [ms]']) > 0.0
+
+
+def test_stale_is_said_once_and_nothing_else_until_tensions_come_again(listener):
+    # Twenty times the timeout is waited for, by the reports that come each second.
+    with listener.estimator('-p', 'input_timeout:=0.1'):
+        assert listener.answer(*SLIPPING) == 'equilibrium'
+        wait_for('all of the answer', lambda: listener.joint_states and listener.estimates)
+        wait_for('that it is stale', lambda: listener.stale_regimes)
+        counts = [len(store) for store in listener._stores]
+        said_before = len(listener.stale_regimes)
+        since = len(listener.diagnostics)
+        wait_for('two reports', lambda: len(listener.diagnostics) >= since + 2)
+        assert len(listener.stale_regimes) == said_before
+        assert [len(store) for store in listener._stores] == counts
+        # What is no tensions does not end it.
+        assert listener.answer(math.nan, 1.0) == 'invalid'
+        listener.wait_for_status(STALE, 'not finite 1', since=len(listener.diagnostics))
+        assert listener.answer(*SLIPPING) == 'equilibrium'
+        wait_for('stale again', lambda: len(listener.stale_regimes) == said_before + 1)
+
+
+def test_before_the_first_tensions_only_diagnostics_say_so(listener):
+    with listener.estimator('-p', 'input_timeout:=0.1', greet=False):
+        status = listener.wait_for_status(STALE, 'no valid tensions came yet')
+        assert values(status)['messages received'] == '0'
+        assert not listener.regimes
+        assert not listener.stale_regimes
+
+
+def test_levels_follow_the_tensions(listener):
+    def report_of(*tensions: float, level: bytes, named: str) -> None:
+        """Tell the tensions again and again, as a driver does, until a report is of them."""
+        since = len(listener.diagnostics)
+
+        def found() -> bool:
+            listener.answer(*tensions)
+            return any(
+                status.level == level and named in status.message
+                for status in listener.diagnostics[since:]
+            )
+
+        wait_for(f'a report of {tensions}', found)
+
+    with listener.estimator('-p', 'cable_s.max_tension:=5.0'):
+        report_of(*SLIPPING, level=OK, named='equilibrium')
+        report_of(*HELD, level=WARN, named='held, so that tensions do not determine the angle')
+        report_of(*STOP, level=OK, named='driven_to_stop')
+        report_of(1.0, 5.5, level=ERROR, named='implausible tension')
+        report_of(*STOP, level=OK, named='driven_to_stop')
+        report_of(-1.0, 2.0, level=WARN, named='dropped negative')
+        report_of(0.05, 0.1, level=STALE, named='dropped below the weight')
+        assert not listener.solve_latest().message.startswith('no valid')
+
+
+def test_a_second_publisher_is_noticed(listener):
+    with listener.estimator():
+        with spinning(Listener):
+            listener.wait_for_status(STALE, '2 publishers on /tensions, one is expected')
+        since = len(listener.diagnostics)
+        wait_for(
+            'it to be gone',
+            lambda: any(
+                values(status)['publishers on /tensions'] == '1'
+                for status in listener.diagnostics[since:]
+            ),
+        )
+
+
+def test_the_name_tells_estimators_apart(listener):
+    arguments = ('-r', '__ns:=/left/wrist')
+    with Program.running('estimator', '--ros-args', *arguments):
+        wait_for('a status', lambda: listener.diagnostics)
+        assert listener.diagnostics[-1].name == 'left/wrist/estimator: estimation'

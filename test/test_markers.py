@@ -1,0 +1,60 @@
+"""What RViz is told to draw."""
+
+import math
+
+import pytest
+from designs import PRELIMINARY, cases
+from hypothesis import given
+from std_msgs.msg import Header
+from visualization_msgs.msg import Marker
+
+from tendon_statics import Regime, solve
+from tendon_statics.node.markers import COLOURS, no_markers, unit_markers
+from tendon_statics.physics import admissible_angles
+
+HEADER = Header(frame_id='joint')
+HELD, SLIPPING, STOP, SLACK = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0), (0.0, 2.0)
+
+
+def drawn(design, tensions) -> tuple[Marker, Marker, Marker]:
+    result = solve(design, *tensions)
+    intervals = [] if result.regime is Regime.SLACK else admissible_angles(design, *tensions)
+    unit, band, label = unit_markers(design, result, intervals, HEADER).markers
+    return unit, band, label
+
+
+@pytest.mark.parametrize('tensions', [SLIPPING, STOP, SLIPPING[::-1]])
+def test_the_unit_points_to_its_angle(tensions):
+    unit, _, label = drawn(PRELIMINARY, tensions)
+    tip = unit.points[1]
+    assert math.atan2(tip.x, tip.z) == pytest.approx(solve(PRELIMINARY, *tensions).bend_angle)
+    assert unit.action == label.action == Marker.ADD
+    assert unit.header.frame_id == 'joint'
+
+
+def test_what_is_not_determined_is_taken_away():
+    unit, band, label = drawn(PRELIMINARY, HELD)
+    assert (unit.action, band.action, label.text) == (Marker.DELETE, Marker.ADD, 'held')
+    unit, band, label = drawn(PRELIMINARY, SLACK)
+    assert (unit.action, band.action, label.text) == (Marker.DELETE, Marker.DELETE, 'slack')
+    assert no_markers(HEADER).markers[0].action == Marker.DELETEALL
+
+
+def test_regimes_differ_in_colour():
+    assert set(COLOURS) == set(Regime)
+    assert len(set(COLOURS.values())) == len(COLOURS)
+
+
+@given(cases())
+def test_the_band_is_the_admissible_angles(case):
+    """Its triangles cover the intervals, no more and no less."""
+    design, tension_l, tension_s = case
+    intervals = admissible_angles(design, tension_l, tension_s)
+    _, band, _ = drawn(design, (tension_l, tension_s))
+    assert len(band.points) % 3 == 0
+    side = math.copysign(1.0, design.com_distance)
+    angles = [math.atan2(side * point.x, side * point.z) for point in band.points]
+    covered = sum(angles[2::3]) - sum(angles[1::3])
+    assert covered == pytest.approx(sum(high - low for low, high in intervals), abs=1e-9)
+    for angle in angles[1::3] + angles[2::3]:
+        assert any(low - 1e-9 <= angle <= high + 1e-9 for low, high in intervals)

@@ -1,0 +1,174 @@
+"""The kinds of messages that drivers send, over real ROS: what comes of them, with which stamp."""
+
+import itertools
+import math
+
+import pytest
+from builtin_interfaces.msg import Time
+from designs import PRELIMINARY
+from rcl_interfaces.msg import ParameterType, ParameterValue
+from ros_programs import Listener, Program, spinning, wait_for
+from rosgraph_msgs.msg import Clock
+from test_health import values
+
+from tendon_statics import solve
+
+HELD, SLIPPING, STOP = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0)
+STAMPED = ('joint_state', 'wrench_pair')
+
+
+def double(value: float) -> ParameterValue:
+    return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
+
+
+@pytest.fixture
+def driver(request):
+    """A listener that sends tensions as messages of the kind asked for."""
+    with spinning(lambda context: Listener(context, request.param)) as node:
+        yield node
+
+
+def latest_values(driver) -> dict[str, str]:
+    """What the next report on /diagnostics counts."""
+    since = len(driver.diagnostics)
+    wait_for('a report', lambda: len(driver.diagnostics) > since)
+    return values(driver.diagnostics[-1])
+
+
+@pytest.mark.parametrize('driver', STAMPED, indirect=True)
+def test_the_stamp_of_the_measurement_travels_unchanged(driver):
+    """Also one that is far from the present."""
+    with driver.estimator():
+        stamps = [Time(sec=2**31 - 1, nanosec=nanosec) for nanosec in range(1, 1000, 100)]
+        for stamp in stamps:
+            driver.publish(*SLIPPING, stamp=stamp)
+        wait_for('the estimates', lambda: len(driver.estimates) == len(stamps))
+        wait_for('the rest', lambda: len(driver.unit_poses) == len(driver.estimates))
+        wait_for('the joint', lambda: len(driver.joint_states) == len(driver.estimates))
+        expected = solve(PRELIMINARY, *SLIPPING)
+        for stored in (driver.estimates, driver.unit_poses, driver.joint_states):
+            assert [message.header.stamp for message in stored] == stamps
+        assert {estimate.bend_angle for estimate in driver.estimates} == {expected.bend_angle}
+        joint = driver.joint_states[0]
+        assert (list(joint.name), list(joint.position)) == (['bend'], [expected.bend_angle])
+        assert not joint.effort
+        assert not joint.velocity
+
+
+@pytest.mark.parametrize('driver', STAMPED, indirect=True)
+def test_what_comes_late_or_twice_is_dropped_and_counted(driver):
+    with driver.estimator('-p', 'input_timeout:=60.0'):
+        driver.answer(*SLIPPING)
+        before = latest_values(driver)
+        last = driver.estimates[-1].header.stamp
+        for _ in range(10):
+            driver.publish(*STOP, stamp=last)
+            driver.publish(*STOP, stamp=Time(sec=last.sec - 1, nanosec=last.nanosec))
+        driver.answer(*SLIPPING)
+        assert set(driver.regimes) == {'equilibrium'}
+
+        each = len(driver.tension_publishers)  # messages of a reading
+
+        def grown(key: str) -> int:
+            return int(latest_values(driver)[key]) - int(before[key])
+
+        wait_for('the counts', lambda: grown('dropped: out of order') == 10 * each)
+        assert grown('dropped: repeated stamp') == 10 * each
+        assert grown('pairs solved') == 1
+        assert grown('messages received') == 21 * each
+
+
+@pytest.mark.parametrize('driver', ['joint_state'], indirect=True)
+def test_a_joint_state_without_a_cable_is_invalid(driver):
+    with driver.estimator('-p', 'cable_names:=[cable_l, cable_s]') as program:
+        assert driver.answer(1.0) == 'invalid'
+        wait_for('the warning', lambda: 'no cable_s among the names: cable_l' in program.output())
+        assert driver.answer(*SLIPPING) == 'equilibrium'
+
+
+@pytest.mark.parametrize('driver', ['wrench_pair'], indirect=True)
+def test_a_load_cell_alone_gives_nothing_and_is_counted(driver):
+    with driver.estimator('-p', 'max_skew:=0.0') as program:
+        driver.answer(*SLIPPING)
+        count = len(driver.regimes)
+        for _ in range(150):
+            driver.publish_one(1.0)
+        assert driver.answer(*SLIPPING) == 'equilibrium'
+        assert len(driver.regimes) == count + 1
+        wait_for('the count', lambda: latest_values(driver)['dropped: unpaired'] == '150')
+        wait_for('the warning', lambda: 'has no partner within max_skew, 0 s' in program.output())
+
+
+def test_each_cable_has_its_own_unit(listener):
+    calibration = (
+        *('cable_l.gain:=0.5', 'cable_l.bias:=-1.0', 'cable_s.gain:=-0.001', 'cable_s.bias:=1.0'),
+        'cable_s.max_tension:=3.5',
+    )
+    arguments = [part for value in calibration for part in ('-p', value)]
+    with listener.estimator(*arguments, greet=False) as program:
+        listener.connect(program, greet=False)
+        wait_for('an answer', lambda: listener.publish(4.0, -1000.0) or listener.estimates)
+        assert (listener.estimates[0].tension_l, listener.estimates[0].tension_s) == SLIPPING
+        # Of the drivers' 4.0 and -1000.0, now in another unit.
+        assert listener.set_estimator_parameters(cable_l__bias=double(-1.5)).successful
+        count = len(listener.estimates)
+        listener.publish(4.0, -1000.0)
+        wait_for('an estimate', lambda: len(listener.estimates) > count)
+        assert listener.estimates[-1].tension_l == 0.5
+        assert listener.answer(4.0, -2501.0) == 'invalid'
+        wait_for(
+            'the warning',
+            lambda: 'tension_s is 3.501 N, allowed is 0 to 3.5 N' in program.output(),
+        )
+        refused = listener.set_estimator_parameters(cable_s__gain=double(0.0))
+        assert 'cable_s.gain is 0.0' in refused.reason
+
+
+@pytest.mark.parametrize('driver', ['array', 'joint_state'], indirect=True)
+def test_a_simulated_clock_that_jumps_back_does_not_hang_it(driver):
+    clock = driver.create_publisher(Clock, '/clock', 10)
+
+    def told(seconds: int) -> None:
+        clock.publish(Clock(clock=Time(sec=seconds)))
+
+    sent = itertools.count(1)
+
+    def answered_at(seconds: int) -> bool:
+        """Tell time and tensions until both have come."""
+        told(seconds)
+        driver.publish(*STOP, stamp=Time(sec=seconds, nanosec=next(sent)))
+        return any(estimate.header.stamp.sec == seconds for estimate in driver.estimates)
+
+    with driver.estimator('-p', 'use_sim_time:=true', greet=False) as program:
+        driver.connect(program, greet=False)
+        for seconds in (1000, 1001, 5, 6, 1002):
+            wait_for(f'an estimate at {seconds} s', lambda s=seconds: answered_at(s))
+        # The clock stands still, and that tensions stop is seen all the same.
+        before = len(driver.stale_regimes)
+        wait_for('that the input is stale', lambda: len(driver.stale_regimes) > before)
+        assert program.process.poll() is None
+
+
+def test_markers_only_if_asked_for(listener):
+    from visualization_msgs.msg import Marker, MarkerArray
+
+    drawn: list[MarkerArray] = []
+    listener.create_subscription(MarkerArray, 'estimator/markers', drawn.append, 10)
+    with listener.estimator():
+        listener.answer(*SLIPPING)
+        assert listener.count_publishers('/estimator/markers') == 0
+    with listener.estimator('-p', 'markers:=true', '-p', 'input_timeout:=0.2'):
+        wait_for('a drawing', lambda: listener.answer(*SLIPPING) and drawn)
+        drawn.clear()
+        wait_for('its end', lambda: drawn)
+        assert drawn[-1].markers[0].action == Marker.DELETEALL
+
+
+def test_with_sensor_data_qos_any_driver_fits():
+    with (
+        Program.running('pulley_driver', '--ros-args', '-p', 'rate:=100.0'),
+        spinning(Listener) as listener,
+        Program.running('estimator'),
+    ):
+        wait_for('estimates', lambda: len(listener.estimates) > 10)
+        assert not math.isnan(listener.estimates[-1].tension_l)
