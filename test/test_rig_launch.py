@@ -46,7 +46,12 @@ def test_the_example_rig_runs_in_simulation_and_ends_on_ctrl_c():
         spinning(lambda context: Audience(context, namespaces)) as audience,
         Program.running_command([*LAUNCH, 'simulate:=true']) as rig,
     ):
-        wait_for('estimates of every joint', lambda: all(audience.estimates.values()))
+
+        def has_estimates():
+            assert rig.process.poll() is None, rig.output()
+            return all(audience.estimates.values())
+
+        wait_for('estimates of every joint', has_estimates)
         for joint in joints:
             (frame,) = {e.header.frame_id for e in audience.estimates[joint.namespace]}
             assert frame == joint.frame_id
