@@ -231,6 +231,16 @@ def test_every_message_of_a_load_cell_is_paired_dropped_or_waiting(sent, skew):
     assert times == sorted(set(times))
 
 
+def test_a_slack_cable_is_not_negative_by_rounding():
+    for raw in (0.1, 0.3, 0.7, 1.1, 12.34):
+        for gain in (0.1, -0.3, 1.7):
+            calibration = Calibration(gain, -gain * raw, 10.0)
+            for value in (raw, math.nextafter(raw, 0.0), math.nextafter(raw, 100.0)):
+                tension, fault = calibrated('tension_l', value, calibration)
+                assert fault is None
+                assert tension == 0.0
+
+
 @pytest.mark.parametrize(
     ('value', 'reason'),
     [

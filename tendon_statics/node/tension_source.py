@@ -18,6 +18,9 @@ NANOSECONDS = 1_000_000_000
 MOST_WAITING = 100
 """Messages of one load cell that wait for those of the other"""
 
+ROUNDING = 1e-15
+"""Relative error of a sum of two numbers that nearly cancel"""
+
 RISING = 3
 """Stamps in a row"""
 
@@ -286,6 +289,8 @@ def calibrated(
 ) -> tuple[float, tuple[Reason, str] | None]:
     """Return a measured value as a tension in N, and what is against it."""
     tension = calibration.gain * value + calibration.bias
+    if abs(tension) < ROUNDING * abs(calibration.bias):  # of a slack cable
+        tension = 0.0
     if 0.0 <= tension <= calibration.max_tension:
         return tension, None
     allowed = f'allowed is 0 to {calibration.max_tension:g} N'
