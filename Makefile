@@ -27,6 +27,13 @@ demo: setup ## Drive the estimator node over real ROS 2 and print what it publis
 test: setup ## Run all tests (choose with ARGS, say ARGS='-k node')
 	@$(run) pytest $(ARGS)
 
+# How long to soak.
+MINUTES ?= 5
+
+.PHONY: soak
+soak: setup ## Stream faulty tensions at the estimator and balance the books (MINUTES=5)
+	@$(run) python tools/soak.py --minutes $(MINUTES)
+
 .PHONY: lint
 lint: .venv/.complete ## Check style and types
 	@$(run) ruff check . && ruff format --check . && mypy

@@ -10,7 +10,6 @@ settings.register_profile('local', deadline=None)
 settings.register_profile('ci', deadline=None, derandomize=True)
 settings.load_profile('ci' if os.environ.get('CI') else 'local')
 
-os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
 # Without it `Float64(data=3)` is silently taken.
 os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
 
@@ -18,10 +17,9 @@ os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
 @pytest.fixture(scope='session', autouse=True)
 def ros_domain():
     """Take a ROS domain that no other run on this machine has, and hold it to the end."""
-    from domain_coordinator import domain_id
+    from ros_domain import own_domain
 
-    with domain_id() as domain:
-        os.environ['ROS_DOMAIN_ID'] = str(domain)
+    with own_domain() as domain:
         yield domain
 
 

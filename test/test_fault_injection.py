@@ -16,11 +16,12 @@ ROWS = [(1.0, 2.6 + 0.001 * index) for index in range(300)]
 
 KINDS = ('array', 'joint_state', 'wrench_pair')
 TOPICS = dict.fromkeys(KINDS, ('tensions',)) | {'wrench_pair': ('tension_l', 'tension_s')}
+OUTPUTS = ('regime', 'estimate', 'bend_angle')
 STAMP_FAULTS = ('out_of_order_probability:=0.02', 'repeated_stamp_probability:=0.02')
 FAULTS = (
     *('dropout_probability:=0.05', 'nan_burst_probability:=0.005', 'nan_burst_length:=8'),
     *('wrong_length_probability:=0.03', 'slack_probability:=0.005', 'slack_length:=10'),
-    *('implausible_probability:=0.01', 'seed:=7'),
+    *('implausible_probability:=0.02', 'seed:=7'),
 )
 
 
@@ -50,19 +51,27 @@ def driver(recording, *parameters: str, kind: str = 'array'):
 def estimator_of(observer, recording, *, kind: str = 'array', reliable=True):
     """An estimator that is known to hear a driver and to be heard on all topics."""
     values = [f'tension_source:={kind}', 'max_skew:=0.0005']
+    # Room for a listener that is slow on a busy machine.
+    values += [f'qos_overrides./estimator/{topic}.publisher.depth:=5000' for topic in OUTPUTS]
     if reliable:  # so that every message counts
         values += [
             f'qos_overrides./{topic}.subscription.reliability:=reliable' for topic in TOPICS[kind]
         ]
     arguments = [part for value in values for part in ('-p', value)]
     with observer.estimator(*arguments, greet=False) as program:
-        with driver(recording, 'rate:=200.0', kind=kind) as first:
+        with driver(recording, 'rate:=200.0', kind=kind):
             wait_for('the estimator to be heard', observer.hears_all)
-            first.end()
-            sent = first.sent()['messages']
-        wait_for('the last', lambda: observer.count('messages received') >= sent)
+        wait_for('the last of them', lambda: is_quiet(observer))
         observer.forget()
         yield program
+
+
+def is_quiet(observer) -> bool:
+    """Whether nothing came between the next two reports."""
+    reports(observer)
+    before = observer.count('messages received')
+    reports(observer)
+    return observer.count('messages received') == before
 
 
 def reports(observer) -> None:
@@ -86,7 +95,7 @@ def test_of_all_faults_at_once_each_is_counted_and_nothing_good_is_lost(kind, ob
     faults = FAULTS if kind == 'array' else FAULTS + STAMP_FAULTS
     with estimator_of(observer, recording, kind=kind) as program:
         before, memory = counts(observer), program.memory()
-        with driver(recording, 'rate:=500.0', 'count:=1500', *faults, kind=kind) as made:
+        with driver(recording, 'rate:=250.0', 'count:=1000', *faults, kind=kind) as made:
             wait_for('the last message', lambda: 'Sent: ' in made.output())
             sent = made.sent()
         wait_for(
@@ -99,7 +108,7 @@ def test_of_all_faults_at_once_each_is_counted_and_nothing_good_is_lost(kind, ob
         after = counts(observer)
         grown = {key: after[key] - before[key] for key in after}
         good = sent['good'] + sent['slack']
-        assert sent['good'] > 1000
+        assert sent['good'] > 600
         assert min(sent[key] for key in ('slack', 'nan_burst', 'wrong_length', 'implausible')) > 5
 
         assert grown['pairs solved'] == good
@@ -126,7 +135,7 @@ def test_of_all_faults_at_once_each_is_counted_and_nothing_good_is_lost(kind, ob
         # In the order in which they were sent, round and round.
         places = [ROWS.index(pair) for pair in taken]
         rounds = sum(later < earlier for earlier, later in itertools.pairwise(places))
-        assert rounds <= 1500 // len(ROWS)
+        assert rounds <= 1000 // len(ROWS)
         invalid = sent['nan_burst'] + sent['implausible'] + (1 - halves) * sent['wrong_length']
         wait_for('every regime', lambda: observer.regimes.count('invalid') == invalid)
         assert len(observer.regimes) == good + invalid
@@ -155,19 +164,19 @@ def test_a_driver_that_is_killed_is_missed_and_taken_again(observer, recording):
 
 
 def test_a_burst_of_nan_longer_than_the_timeout_is_stale_once(observer, recording):
-    burst = ('nan_burst_probability:=0.002', 'nan_burst_length:=400', 'seed:=3')
+    burst = ('nan_burst_probability:=0.004', 'nan_burst_length:=200', 'seed:=3')
     with estimator_of(observer, recording):
         wait_for('the first driver to be missed', lambda: observer.stale_regimes)
         observer.forget()
         observer.stale_regimes.clear()
-        with driver(recording, 'rate:=500.0', 'count:=1500', *burst) as made:
+        with driver(recording, 'rate:=250.0', 'count:=1000', *burst) as made:
             wait_for('the last message', lambda: 'Sent: ' in made.output())
             sent = made.sent()
-        assert sent['nan_burst'] >= 400
-        wait_for('every regime', lambda: len(observer.regimes) == 1500)
+        assert sent['nan_burst'] >= 200
+        wait_for('every regime', lambda: len(observer.regimes) == 1000)
         wait_for('every angle', lambda: len(observer.bend_angles) == sent['good'])
         assert observer.regimes.count('invalid') == sent['nan_burst']
-        bursts = sent['nan_burst'] // 400
+        bursts = sent['nan_burst'] // 200
         wait_for('the end to be seen', lambda: len(observer.stale_regimes) >= bursts)
 
 
@@ -222,7 +231,7 @@ def test_a_bad_parameter_in_the_middle_of_a_stream_changes_nothing(observer, rec
 
     with (
         estimator_of(observer, recording) as program,
-        driver(recording, 'rate:=500.0', 'count:=1500') as made,
+        driver(recording, 'rate:=250.0', 'count:=1000') as made,
     ):
         wait_for('the stream', lambda: len(observer.estimates) > 50)
         for refused in range(20):
@@ -232,7 +241,7 @@ def test_a_bad_parameter_in_the_middle_of_a_stream_changes_nothing(observer, rec
             assert not result.successful
             assert 'design.mass' in result.reason
         assert 'Sent: ' not in made.output()
-        wait_for('every estimate', lambda: len(observer.estimates) == 1500)
+        wait_for('every estimate', lambda: len(observer.estimates) == 1000)
         assert len(set(observer.bend_angles)) == 1
         assert program.process.poll() is None
 

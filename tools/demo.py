@@ -7,12 +7,11 @@ a ROS domain that nobody else uses, plays the demo tensions once, and ends what 
 from __future__ import annotations
 
 import math
-import os
 import signal
 import subprocess
 import sys
 
-from domain_coordinator import domain_id
+from ros_domain import own_domain
 from ros_programs import Listener, Program, spinning, wait_for
 from tendon_statics_interfaces.msg import Estimate
 
@@ -27,29 +26,27 @@ PAPERS_CASE = (paper.TENSION_L, paper.TENSION_S)
 
 def main() -> None:
     """Run the demo."""
-    os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     rows = [sample[:2] for sample in load_tensions(installed_config('demo_tensions.csv'))]
     design = str(installed_config('preliminary_design.yaml'))
     # A recording that is played once is to lose no row, not even the first.
     reliable = ('-p', 'qos_overrides./tensions.subscription.reliability:=reliable')
     play = ('-p', 'awaited_subscribers:=1', '-p', 'loop:=false', '-p', 'rate:=20.0')
-    with domain_id() as domain:
-        os.environ['ROS_DOMAIN_ID'] = str(domain)
-        with (
-            spinning(Listener) as listener,
-            listener.estimator('--params-file', design, *reliable) as estimator,
-        ):
-            with Program.running('pulley_driver', '--ros-args', *play) as driver:
-                wait_for('an answer to every row', lambda: has_answers(listener, len(rows)))
-                end('pulley_driver', driver)
-            print_table(rows, listener)
-            answer = listener.solve(*PAPERS_CASE)
-            print(
-                f'\n~/solve of {PAPERS_CASE[0]:g} N and {PAPERS_CASE[1]:g} N: {answer.regime}, '
-                f'{math.degrees(answer.bend_angle):.2f} deg '
-                f'± {math.degrees(answer.bend_angle_stddev):.2f}, {answer.pressure:.1f} Pa'
-            )
-            end('estimator', estimator)
+    with (
+        own_domain(),
+        spinning(Listener) as listener,
+        listener.estimator('--params-file', design, *reliable) as estimator,
+    ):
+        with Program.running('pulley_driver', '--ros-args', *play) as driver:
+            wait_for('an answer to every row', lambda: has_answers(listener, len(rows)))
+            end('pulley_driver', driver)
+        print_table(rows, listener)
+        answer = listener.solve(*PAPERS_CASE)
+        print(
+            f'\n~/solve of {PAPERS_CASE[0]:g} N and {PAPERS_CASE[1]:g} N: {answer.regime}, '
+            f'{math.degrees(answer.bend_angle):.2f} deg '
+            f'± {math.degrees(answer.bend_angle_stddev):.2f}, {answer.pressure:.1f} Pa'
+        )
+        end('estimator', estimator)
     published = (round(math.degrees(answer.bend_angle), 2), round(answer.pressure, 1))
     if published != (round(math.degrees(paper.BEND_ANGLE), 2), paper.PRESSURE):
         raise RuntimeError(f'the published case came back as {published}')

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
 
 import rclpy
-from domain_coordinator import domain_id
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
+from ros_domain import own_domain
 
 from tendon_statics.command_line.tables import markdown_table
 from tendon_statics.node.pulley_driver import PulleyDriver
@@ -16,8 +15,7 @@ from tendon_statics.node.pulley_driver import PulleyDriver
 
 def main() -> None:
     """Print the table."""
-    os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
-    with domain_id() as domain:
+    with own_domain() as domain:
         rclpy.init(args=['--ros-args', '--log-level', 'fatal'], domain_id=domain)
         try:
             driver = PulleyDriver()

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import io
-import os
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 import rclpy
-from domain_coordinator import domain_id
+from ros_domain import own_domain
 
 from tendon_statics.command_line.tables import markdown_table
 from tendon_statics.node.estimator import Estimator
@@ -55,10 +54,9 @@ def main() -> None:
 @contextmanager
 def estimator(*parameters: str) -> Iterator[Estimator]:
     """Make an estimator in this process, alone in a domain of its own, with parameters."""
-    os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     arguments = [part for parameter in parameters for part in ('-p', parameter)]
     quiet = ['--log-level', 'fatal', '--disable-rosout-logs']
-    with domain_id() as domain:
+    with own_domain() as domain:
         rclpy.init(args=['--ros-args', *quiet, *arguments], domain_id=domain)
         try:
             with contextlib.redirect_stderr(io.StringIO()):

@@ -27,6 +27,9 @@ INVALID = 'invalid'
 STALE = 'stale'
 """What ``~/regime`` says once when no more valid tensions come."""
 
+OUTPUT_DEPTH = 100
+"""Messages kept for a subscriber that is slow"""
+
 MARKER_PERIOD = 0.05
 """Least time in s between two drawings of the unit"""
 
@@ -56,7 +59,7 @@ class Outputs:
         return self._node.create_publisher(
             message_type,
             topic,
-            QoSProfile(depth=10),
+            QoSProfile(depth=OUTPUT_DEPTH),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
 
