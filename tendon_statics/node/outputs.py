@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -34,6 +37,88 @@ MARKER_PERIOD = 0.05
 """Least time in s between two drawings of the unit"""
 
 
+class Finding:
+    """What there is to say of one pair of tensions, worked out when it is asked for."""
+
+    def __init__(
+        self, result: Equilibrium | TrackedState, settings: Settings, wiring: Wiring, stamp: Time
+    ) -> None:
+        self.result = result
+        self.design = settings.design
+        self.tension_stddev = settings.tension_stddev
+        self.joint_name = wiring.joint_name
+        self.header = Header(stamp=stamp, frame_id=wiring.frame_id)
+
+    @cached_property
+    def slip_margin(self) -> float | None:
+        """`slip_margin` at the bend angle; None where that is not determined."""
+        result = self.result
+        if result.bend_angle is None:
+            return None
+        return slip_margin(self.design, result.tension_l, result.tension_s, result.bend_angle)
+
+    @cached_property
+    def admissible_angles(self) -> list[tuple[float, float]]:
+        """Intervals in which friction can hold the unit; none while a cable is slack."""
+        result = self.result
+        if result.regime is Regime.SLACK:
+            return []
+        return admissible_angles(self.design, result.tension_l, result.tension_s)
+
+
+# One function for each topic, which returns its message, or None where nothing is determined.
+
+
+def _regime(finding: Finding) -> String:
+    return String(data=finding.result.regime.value)
+
+
+def _bend_angle(finding: Finding) -> Float64 | None:
+    angle = finding.result.bend_angle
+    return None if angle is None else Float64(data=angle)
+
+
+def _joint_pressure(finding: Finding) -> Float64 | None:
+    pressure = finding.result.pressure
+    return None if pressure is None else Float64(data=pressure)
+
+
+def _slip_margin(finding: Finding) -> Float64 | None:
+    margin = finding.slip_margin
+    return None if margin is None else Float64(data=margin)
+
+
+def _joint_state(finding: Finding) -> JointState | None:
+    angle = finding.result.bend_angle
+    if angle is None:
+        return None
+    return JointState(header=finding.header, name=[finding.joint_name], position=[angle])
+
+
+def _unit_pose(finding: Finding) -> PoseWithCovarianceStamped | None:
+    angle = finding.result.bend_angle
+    stddev = finding.result.bend_angle_stddev(finding.tension_stddev)
+    if angle is None or stddev is None:
+        return None
+    return messages.unit_pose(finding.design, angle, stddev, finding.header)
+
+
+def _admissible_angles(finding: Finding) -> Float64MultiArray | None:
+    if finding.result.regime is Regime.SLACK:
+        return None
+    return messages.intervals_array(finding.admissible_angles)
+
+
+def _estimate(finding: Finding) -> messages.Estimate:
+    return messages.estimate(
+        finding.result,
+        finding.slip_margin,
+        finding.admissible_angles,
+        finding.tension_stddev,
+        finding.header,
+    )
+
+
 class Outputs:
     """The publishers of the estimator, one for each topic."""
 
@@ -41,19 +126,21 @@ class Outputs:
         self._node = node
         self._wiring = wiring
         self._regime = self._publisher(String, '~/regime')
-        self._bend_angle = self._publisher(Float64, '~/bend_angle')
-        self._joint_pressure = self._publisher(Float64, '~/joint_pressure')
-        self._unit_pose = self._publisher(PoseWithCovarianceStamped, '~/unit_pose')
-        self._joint_state = self._publisher(JointState, '~/joint_state')
-        self._slip_margin = self._publisher(Float64, '~/slip_margin')
-        self._admissible_angles = self._publisher(Float64MultiArray, '~/admissible_angles')
-        self._diagnostics = self._publisher(DiagnosticArray, '/diagnostics')
-        self._estimate = self._markers = None
+        self._of_findings: list[tuple[Publisher, Callable[[Finding], Any]]] = [
+            (self._regime, _regime),
+            (self._publisher(Float64, '~/bend_angle'), _bend_angle),
+            (self._publisher(Float64, '~/joint_pressure'), _joint_pressure),
+            (self._publisher(Float64, '~/slip_margin'), _slip_margin),
+            (self._publisher(JointState, '~/joint_state'), _joint_state),
+            (self._publisher(PoseWithCovarianceStamped, '~/unit_pose'), _unit_pose),
+            (self._publisher(Float64MultiArray, '~/admissible_angles'), _admissible_angles),
+        ]
         if not messages.INTERFACES_MISSING:
-            self._estimate = self._publisher(messages.Estimate, '~/estimate')
-        if wiring.markers:
-            self._markers = self._publisher(MarkerArray, '~/markers')
+            estimate = self._publisher(messages.Estimate, '~/estimate')
+            self._of_findings.append((estimate, _estimate))
+        self._markers = self._publisher(MarkerArray, '~/markers') if wiring.markers else None
         self._next_drawing = 0.0
+        self._diagnostics = self._publisher(DiagnosticArray, '/diagnostics')
 
     def _publisher(self, message_type: type, topic: str) -> Publisher:
         return self._node.create_publisher(
@@ -64,35 +151,18 @@ class Outputs:
         )
 
     def publish(self, result: Equilibrium | TrackedState, settings: Settings, stamp: Time) -> None:
-        """Publish all of a result that is determined, and nothing else."""
-        design, stddev = settings.design, settings.tension_stddev
-        header = self._header(stamp)
-        self._regime.publish(String(data=result.regime.value))
-        margin = None
-        if result.bend_angle is not None:
-            margin = slip_margin(design, result.tension_l, result.tension_s, result.bend_angle)
-            self._bend_angle.publish(Float64(data=result.bend_angle))
-            self._slip_margin.publish(Float64(data=margin))
-            self._joint_state.publish(
-                JointState(
-                    header=header, name=[self._wiring.joint_name], position=[result.bend_angle]
-                )
-            )
-            angle_stddev = result.bend_angle_stddev(stddev)
-            if angle_stddev is not None:
-                pose = messages.unit_pose(design, result.bend_angle, angle_stddev, header)
-                self._unit_pose.publish(pose)
-        if result.pressure is not None:
-            self._joint_pressure.publish(Float64(data=result.pressure))
-        intervals = []
-        if result.regime is not Regime.SLACK:
-            intervals = admissible_angles(design, result.tension_l, result.tension_s)
-            self._admissible_angles.publish(messages.intervals_array(intervals))
-        if self._estimate is not None:
-            self._estimate.publish(messages.estimate(result, margin, intervals, stddev, header))
+        """Publish all of a result that is determined and that somebody listens to."""
+        finding = Finding(result, settings, self._wiring, stamp)
+        for publisher, make in self._of_findings:
+            if publisher.get_subscription_count() > 0:
+                message = make(finding)
+                if message is not None:
+                    publisher.publish(message)
         if self._markers is not None and time.monotonic() >= self._next_drawing:
             self._next_drawing = time.monotonic() + MARKER_PERIOD
-            self._markers.publish(unit_markers(design, result, intervals, header))
+            self._markers.publish(
+                unit_markers(settings.design, result, finding.admissible_angles, finding.header)
+            )
 
     def say_regime(self, regime: str) -> None:
         """Publish a regime that comes with no result: `INVALID` or `STALE`."""
@@ -101,7 +171,8 @@ class Outputs:
     def clear_drawing(self) -> None:
         """Take away what is drawn in RViz."""
         if self._markers is not None:
-            self._markers.publish(no_markers(self._header(self._now())))
+            header = Header(stamp=self._now(), frame_id=self._wiring.frame_id)
+            self._markers.publish(no_markers(header))
             self._next_drawing = 0.0
 
     def report(self, status: DiagnosticStatus) -> None:
@@ -109,9 +180,6 @@ class Outputs:
         self._diagnostics.publish(
             DiagnosticArray(header=Header(stamp=self._now()), status=[status])
         )
-
-    def _header(self, stamp: Time) -> Header:
-        return Header(stamp=stamp, frame_id=self._wiring.frame_id)
 
     def _now(self) -> Time:
         return self._node.get_clock().now().to_msg()
