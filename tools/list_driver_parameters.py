@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import json
-import os
 
-import rclpy
-from domain_coordinator import domain_id
+from list_entities import alone
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 
@@ -16,15 +14,8 @@ from tendon_statics.node.pulley_driver import PulleyDriver
 
 def main() -> None:
     """Print the table."""
-    os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
-    with domain_id() as domain:
-        rclpy.init(args=['--ros-args', '--log-level', 'fatal'], domain_id=domain)
-        try:
-            driver = PulleyDriver()
-            rows = [row(driver, name) for name in own_parameters(driver)]
-            driver.destroy_node()
-        finally:
-            rclpy.shutdown()
+    with alone(PulleyDriver) as driver:
+        rows = [row(driver, name) for name in own_parameters(driver)]
     print(markdown_table(('parameter', 'default', 'allowed', ''), rows))
 
 
