@@ -1,5 +1,6 @@
 """`ros2 launch tendon_statics rig.launch.py`, where ROS 2 has launch (its wheels do not)."""
 
+import itertools
 import json
 import re
 import shutil
@@ -59,6 +60,11 @@ def test_the_example_rig_runs_in_simulation_and_ends_on_ctrl_c():
         named |= {'/proximal/tensions', '/gripper/tension_l', '/gripper/tension_s'}
         assert named <= audience.topics()
         assert not {'/distal/tensions', '/gripper/tensions'} & audience.topics()
+        enclaves = {
+            enclave for *_, enclave in audience.get_node_names_and_namespaces_with_enclaves()
+        }
+        for joint, node in itertools.product(joints, ('estimator', 'pulley_driver')):
+            assert f'/tendon_statics/{joint.namespace}/{node}' in enclaves
         # To launch alone, which passes it on.
         assert rig.end(signal.SIGINT) == 0
         books = re.findall(r'Sent: (\{.*\})', rig.output())
