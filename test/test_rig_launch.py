@@ -38,6 +38,9 @@ class Audience(Node):
     def topics(self):
         return {name for name, _ in self.get_topic_names_and_types()}
 
+    def enclaves(self):
+        return {enclave for *_, enclave in self.get_node_names_and_namespaces_with_enclaves()}
+
 
 def test_the_example_rig_runs_in_simulation_and_ends_on_ctrl_c():
     """Every joint estimates from its own kind of driver, under the names that it was given."""
@@ -61,10 +64,10 @@ def test_the_example_rig_runs_in_simulation_and_ends_on_ctrl_c():
         assert named <= audience.topics()
         assert not {'/distal/tensions', '/gripper/tensions'} & audience.topics()
         enclaves = {
-            enclave for *_, enclave in audience.get_node_names_and_namespaces_with_enclaves()
+            f'/tendon_statics/{joint.namespace}/{node}'
+            for joint, node in itertools.product(joints, ('estimator', 'pulley_driver'))
         }
-        for joint, node in itertools.product(joints, ('estimator', 'pulley_driver')):
-            assert f'/tendon_statics/{joint.namespace}/{node}' in enclaves
+        wait_for('the nodes in their enclaves', lambda: enclaves <= audience.enclaves())
         # To launch alone, which passes it on.
         assert rig.end(signal.SIGINT) == 0
         books = re.findall(r'Sent: (\{.*\})', rig.output())
