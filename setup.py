@@ -15,6 +15,7 @@ setup(
         (share, ['package.xml']),
         (f'{share}/config', glob('config/*')),
         (f'{share}/launch', glob('launch/*.launch.py')),
+        (f'{share}/security', glob('security/*')),
         (f'{share}/urdf', glob('urdf/*.xacro')),
         (f'{share}/hook', ['resource/path.dsv']),
     ],

@@ -69,5 +69,7 @@ def node(joint, name, parameters):
         # What else the design file holds for /** goes to both nodes too.
         parameters=[str(joint.design_file), parameters],
         remappings=list(joint.remappings.items()),
+        # Where security is enabled; elsewhere it is a mere name.
+        ros_arguments=['--enclave', f'/tendon_statics/{joint.namespace}/{name}'],
         output='screen',
     )

@@ -1,5 +1,6 @@
 """`ros2 launch tendon_statics rig.launch.py`, where ROS 2 has launch (its wheels do not)."""
 
+import itertools
 import json
 import re
 import shutil
@@ -37,6 +38,9 @@ class Audience(Node):
     def topics(self):
         return {name for name, _ in self.get_topic_names_and_types()}
 
+    def enclaves(self):
+        return {enclave for *_, enclave in self.get_node_names_and_namespaces_with_enclaves()}
+
 
 def test_the_example_rig_runs_in_simulation_and_ends_on_ctrl_c():
     """Every joint estimates from its own kind of driver, under the names that it was given."""
@@ -59,6 +63,11 @@ def test_the_example_rig_runs_in_simulation_and_ends_on_ctrl_c():
         named |= {'/proximal/tensions', '/gripper/tension_l', '/gripper/tension_s'}
         assert named <= audience.topics()
         assert not {'/distal/tensions', '/gripper/tensions'} & audience.topics()
+        enclaves = {
+            f'/tendon_statics/{joint.namespace}/{node}'
+            for joint, node in itertools.product(joints, ('estimator', 'pulley_driver'))
+        }
+        wait_for('the nodes in their enclaves', lambda: enclaves <= audience.enclaves())
         # To launch alone, which passes it on.
         assert rig.end(signal.SIGINT) == 0
         books = re.findall(r'Sent: (\{.*\})', rig.output())

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import json
 
-import rclpy
+from list_entities import alone
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
-from ros_domain import own_domain
 
 from tendon_statics.command_line.tables import markdown_table
 from tendon_statics.node.pulley_driver import PulleyDriver
@@ -15,14 +14,8 @@ from tendon_statics.node.pulley_driver import PulleyDriver
 
 def main() -> None:
     """Print the table."""
-    with own_domain() as domain:
-        rclpy.init(args=['--ros-args', '--log-level', 'fatal'], domain_id=domain)
-        try:
-            driver = PulleyDriver()
-            rows = [row(driver, name) for name in own_parameters(driver)]
-            driver.destroy_node()
-        finally:
-            rclpy.shutdown()
+    with alone(PulleyDriver) as driver:
+        rows = [row(driver, name) for name in own_parameters(driver)]
     print(markdown_table(('parameter', 'default', 'allowed', ''), rows))
 
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 import contextlib
 import io
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TypeVar
 
 import rclpy
+from rclpy.node import Node
 from ros_domain import own_domain
 
 from tendon_statics.command_line.tables import markdown_table
@@ -18,7 +20,10 @@ TIMERS = {'diagnostics': '1 s', 'watchdog': '`input_timeout`', 'signals': '0.5 s
 """The third is that of the program, which looks whether it was told to end."""
 
 
-def entities(node: Estimator) -> dict[str, dict[str, str]]:
+NodeType = TypeVar('NodeType', bound=Node)
+
+
+def entities(node: Node) -> dict[str, dict[str, str]]:
     """Return what the graph says of a node: kind → name, with ~ for the node's own → type."""
     asked = {
         'publisher': node.get_publisher_names_and_types_by_node,
@@ -55,12 +60,18 @@ def main() -> None:
 def estimator(*parameters: str) -> Iterator[Estimator]:
     """Make an estimator in this process, alone in a domain of its own, with parameters."""
     arguments = [part for parameter in parameters for part in ('-p', parameter)]
-    quiet = ['--log-level', 'fatal', '--disable-rosout-logs']
+    with alone(Estimator, '--disable-rosout-logs', *arguments) as node:
+        yield node
+
+
+@contextmanager
+def alone(make_node: Callable[[], NodeType], *ros_arguments: str) -> Iterator[NodeType]:
+    """Make a node in this process, alone in a domain of its own."""
     with own_domain() as domain:
-        rclpy.init(args=['--ros-args', *quiet, *arguments], domain_id=domain)
+        rclpy.init(args=['--ros-args', '--log-level', 'fatal', *ros_arguments], domain_id=domain)
         try:
             with contextlib.redirect_stderr(io.StringIO()):
-                node = Estimator()
+                node = make_node()
             try:
                 yield node
             finally:

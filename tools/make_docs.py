@@ -15,11 +15,12 @@ from pathlib import Path
 
 import list_driver_parameters
 import list_entities
+import list_permissions
 
 from tendon_statics.command_line.main import main as run
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = ('README.md', 'docs/model.md', 'docs/node.md', 'docs/rig.md')
+PAGES = ('README.md', 'docs/model.md', 'docs/node.md', 'docs/rig.md', 'docs/security.md')
 FIGURES = {
     'docs/hysteresis.svg': 'plot hysteresis',
     'docs/residual.svg': 'plot residual',
@@ -29,6 +30,7 @@ FIGURES = {
 TOOLS = {
     'tools/list_driver_parameters.py': list_driver_parameters.main,
     'tools/list_entities.py': list_entities.main,
+    'tools/list_permissions.py': list_permissions.main,
 }
 
 _BLOCK = re.compile(r'(<!-- made by: (.+?) -->\n).*?(<!-- end -->)', re.DOTALL)

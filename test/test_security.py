@@ -1,0 +1,197 @@
+"""The policy allows what the nodes have and what each role needs, and nothing more."""
+
+import itertools
+import re
+import shutil
+import subprocess
+from xml.etree import ElementTree
+
+import pytest
+from list_entities import alone, entities
+from list_permissions import POLICY, full_name, permissions
+from make_docs import ROOT
+from rclpy.node import Node
+
+from tendon_statics.installed_files import installed_config
+from tendon_statics.node.estimator import Estimator
+from tendon_statics.node.pulley_driver import PulleyDriver
+from tendon_statics.node.tension_kinds import TENSION_SOURCES
+
+ROLES = {path.rpartition('/')[2]: rights for path, rights in permissions(POLICY).items()}
+OTHERS = sorted(set(ROLES) - {'estimator'})
+
+TENSIONS = {'/tensions', '/tension_l', '/tension_s'}
+SOURCES = [f'tension_source:={source}' for source in TENSION_SOURCES]
+TIMES = ['use_sim_time:=false', 'use_sim_time:=true']
+CONFIGURATIONS = {
+    Estimator: [
+        SOURCES,
+        ['estimation:=equilibrium', 'estimation:=tracking'],
+        ['markers:=false', 'markers:=true'],
+        TIMES,
+    ],
+    PulleyDriver: [SOURCES, TIMES],
+}
+
+
+def rights_needed(make_node, *ros_arguments):
+    """What the graph says that a node does: right → full names."""
+    with alone(make_node, *ros_arguments) as node:
+        name, namespace = node.get_name(), node.get_namespace()
+        found = entities(node)
+        clients = node.get_client_names_and_types_by_node(name, namespace)
+    rights = {
+        'publish': found['publisher'],
+        'subscribe': found['subscription'],
+        'reply': found['service'],
+        'request': dict(clients),
+    }
+    return {
+        right: {full_name(own, namespace, name) for own in names}
+        for right, names in rights.items()
+    }
+
+
+def rights_needed_in_every_configuration(node_class, *ros_arguments):
+    """The union over all values of the parameters that choose topics and services."""
+    union = {'publish': set(), 'subscribe': set(), 'reply': set(), 'request': set()}
+    for configuration in itertools.product(*CONFIGURATIONS[node_class]):
+        parameters = [part for parameter in configuration for part in ('-p', parameter)]
+        for right, names in rights_needed(node_class, *parameters, *ros_arguments).items():
+            union[right] |= names
+    return union
+
+
+@pytest.mark.parametrize(
+    ('role', 'node_class'), [('estimator', Estimator), ('pulley_driver', PulleyDriver)]
+)
+def test_a_node_of_the_package_may_do_all_that_it_does_and_nothing_more(role, node_class):
+    assert ROLES[role] == rights_needed_in_every_configuration(node_class)
+
+
+def test_every_parameter_that_is_a_choice_is_among_the_configurations():
+    """A new one may choose topics too; all that are known not to are named here."""
+    without_topics = {'autostart', 'start_type_description_service', 'wrench_component'}
+    with alone(Estimator) as node:
+        choices = {
+            name
+            for name in node._parameters
+            if isinstance(node.get_parameter(name).value, bool)
+            or ' or ' in node.describe_parameter(name).additional_constraints
+        }
+    varied = {options[0].partition(':=')[0] for options in CONFIGURATIONS[Estimator]}
+    assert choices == varied | without_topics
+
+
+@pytest.mark.parametrize('role', OTHERS)
+def test_any_role_may_do_what_every_node_does(role):
+    plain = rights_needed(lambda: Node(role), '-p', 'use_sim_time:=true')
+    for right, names in plain.items():
+        assert names <= ROLES[role][right]
+
+
+EXTRA = {
+    'pulley_driver': {'publish': TENSIONS},
+    # Every C++ node subscribes to /parameter_events, and these may be in C++.
+    'encoder': {'publish': {'/measured_bend_angle'}, 'subscribe': {'/parameter_events'}},
+    'controller': {
+        'subscribe': {'/parameter_events', '/diagnostics'}
+        | {
+            name
+            for name in ROLES['estimator']['publish']
+            if name.startswith('/estimator/')
+            and not name.endswith(('/markers', '/transition_event'))
+        },
+        'request': {name for name in ROLES['estimator']['reply'] if '/solve' in name},
+    },
+    'operator': {
+        'subscribe': {name for rights in ROLES.values() for name in rights['publish']},
+        'request': ROLES['estimator']['reply'],
+        'reply': {'/_ros2cli_*/get_type_description'},
+    },
+}
+"""What each role is for, beside what every node does"""
+
+
+@pytest.mark.parametrize('role', OTHERS)
+def test_a_role_may_do_what_it_is_for_and_nothing_more(role):
+    plain = rights_needed(lambda: Node(role), '-p', 'use_sim_time:=true')
+    allowed = {right: ROLES[role][right] - names for right, names in plain.items()}
+    extra = {right: EXTRA[role].get(right, set()) - names for right, names in plain.items()}
+    assert allowed == extra
+
+
+def who_may(right, name):
+    return {role for role, rights in ROLES.items() if name in rights[right]}
+
+
+def test_only_the_driver_may_publish_tensions():
+    assert set.union(*(who_may('publish', name) for name in TENSIONS)) == {'pulley_driver'}
+
+
+@pytest.mark.parametrize(
+    'service', ['set_parameters', 'set_parameters_atomically', 'change_state', 'reset']
+)
+def test_only_the_operator_may_change_the_estimator(service):
+    assert who_may('request', f'/estimator/{service}') == {'operator'}
+
+
+@pytest.mark.parametrize('role', ROLES)
+def test_no_role_may_answer_or_publish_for_another(role):
+    for name in ROLES[role]['reply']:
+        assert name.startswith((f'/{role}/', '/_ros2cli_'))
+    shared = {'/parameter_events', '/rosout'}
+    for name in ROLES[role]['publish'] - shared:
+        assert who_may('publish', name) == {role}
+
+
+def test_what_one_role_takes_another_gives():
+    def all_that_may(right):
+        return set.union(*(rights[right] for rights in ROLES.values()))
+
+    # Time comes from a simulator or a recording, and a rig has neither.
+    assert all_that_may('subscribe') - all_that_may('publish') == {'/clock'}
+    assert all_that_may('publish') <= all_that_may('subscribe')
+    assert all_that_may('request') == ROLES['estimator']['reply']
+
+
+def test_names_hold_no_pattern_but_that_of_the_command_line():
+    """A pattern in a name would allow more than the tests above compare."""
+    names = {
+        name for rights in ROLES.values() for of_right in rights.values() for name in of_right
+    }
+    patterns = {name for name in names if not re.fullmatch(r'(/[A-Za-z_][A-Za-z0-9_]*)+', name)}
+    assert patterns == {'/_ros2cli_*/get_type_description'}
+
+
+def test_the_policy_has_the_form_that_the_tool_of_ros_takes():
+    root = ElementTree.parse(
+        POLICY, ElementTree.XMLParser(target=ElementTree.TreeBuilder(insert_comments=True))
+    ).getroot()
+    assert (root.tag, root.attrib) == ('policy', {'version': '0.2.0'})
+    (enclaves,) = root
+    # `ros2 security generate_artifacts` takes a comment here for an enclave, and ends.
+    assert {child.tag for child in enclaves} == {'enclave'}
+
+
+def test_the_installed_policy_is_this_one():
+    installed = installed_config('rig.yaml').parents[1] / 'security' / 'policy.xml'
+    assert installed.read_bytes() == POLICY.read_bytes()
+
+
+def test_the_commands_of_the_page_follow_a_namespace_and_a_remapping(tmp_path):
+    page = (ROOT / 'docs' / 'security.md').read_text(encoding='utf-8')
+    move, rename = re.findall(r'^ +(sed .+)$', page, re.MULTILINE)
+    shutil.copy(POLICY, tmp_path / 'policy.xml')
+    arguments = ['-r', '__ns:=/distal']
+    for command, more in (
+        (move, []),
+        (rename, ['-r', 'tensions:=actuators/measured_js']),
+    ):
+        subprocess.run(command, shell=True, check=True, cwd=tmp_path)
+        arguments += more
+        of_joint = permissions(tmp_path / 'distal.xml')
+        assert set(of_joint) == {f'/tendon_statics/distal/{role}' for role in ROLES}
+        for role, node_class in (('estimator', Estimator), ('pulley_driver', PulleyDriver)):
+            needed = rights_needed_in_every_configuration(node_class, *arguments)
+            assert of_joint[f'/tendon_statics/distal/{role}'] == needed
