@@ -71,7 +71,12 @@ def test_a_node_of_the_package_may_do_all_that_it_does_and_nothing_more(role, no
 
 def test_every_parameter_that_is_a_choice_is_among_the_configurations():
     """A new one may choose topics too; all that are known not to are named here."""
-    without_topics = {'autostart', 'start_type_description_service', 'wrench_component'}
+    without_topics = {
+        'autostart',
+        'executor',
+        'start_type_description_service',
+        'wrench_component',
+    }
     with alone(Estimator) as node:
         choices = {
             name

@@ -60,7 +60,7 @@ def main() -> None:
 def estimator(*parameters: str) -> Iterator[Estimator]:
     """Make an estimator in this process, alone in a domain of its own, with parameters."""
     arguments = [part for parameter in parameters for part in ('-p', parameter)]
-    with alone(Estimator, '--disable-rosout-logs', *arguments) as node:
+    with alone(Estimator, *arguments) as node:
         yield node
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import signal
 import subprocess
 import tempfile
@@ -32,6 +33,9 @@ from std_msgs.msg import Float64, Float64MultiArray, Header, String
 from std_srvs.srv import Trigger
 from tendon_statics_interfaces.msg import Estimate
 from tendon_statics_interfaces.srv import Solve, SolveInverse
+
+EXECUTOR = os.environ.get('EXECUTOR')
+"""What every estimator that is run here is told to spin in, if it is told"""
 
 TIME_LIMIT = 30.0
 """Seconds to wait for anything; ten times what is expected."""
@@ -89,6 +93,8 @@ class Program:
     @contextmanager
     def running(cls, name: str, *ros_arguments: str) -> Iterator[Program]:
         """Run an installed program; it is ended on leaving if it has not been."""
+        if name == 'estimator' and EXECUTOR and ros_arguments[:1] in ((), ('--ros-args',)):
+            ros_arguments = (*(ros_arguments or ('--ros-args',)), '-p', f'executor:={EXECUTOR}')
         path = Path(get_package_prefix('tendon_statics'), 'lib', 'tendon_statics', name)
         with cls.running_command([path, *ros_arguments]) as program:
             yield program

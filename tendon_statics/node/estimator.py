@@ -84,6 +84,7 @@ class Estimator(LifecycleNode):
         self._rejected_corrections = 0
         self._health = Health()
         self._reported_level = Level.OK
+        self._newest: dict[str, int] = {}  # topic → number that its publisher gave a message
 
         declare_settings(self)
         self._wiring = declare_wiring(self)
@@ -123,20 +124,25 @@ class Estimator(LifecycleNode):
         self, topic: str, message_type: type, take: Callable[[Any], None]
     ) -> Subscription:
         """Subscribe to a topic of the source; count what comes and what is lost on the way."""
-        newest = 0  # as the publisher numbers its messages
 
-        def on_message(message: Any, info: dict[str, int]) -> None:
-            nonlocal newest
-            number = info['publication_sequence_number']
+        def on_message(message: Any) -> None:
             if self._state == ACTIVE:
                 self._health.received += 1
-                # Two publishers number each for itself, and one that begins anew at 1.
-                if 0 < newest < number - 1 and subscription.get_publisher_count() == 1:
-                    self._health.note_lost(number - newest - 1)
                 take(message)
-            newest = number
 
-        subscription = self._subscription(message_type, topic, on_message)
+        def on_numbered_message(message: Any, info: dict[str, int]) -> None:
+            number, before = info['publication_sequence_number'], self._newest.get(topic, 0)
+            self._newest[topic] = number
+            # Two publishers number each for itself, and one that begins anew at 1.
+            if 0 < before < number - 1 and subscription.get_publisher_count() == 1:
+                self._health.note_lost(number - before - 1)
+            on_message(message)
+
+        # EventsExecutor fails on callbacks that take the number.
+        is_numbered = self._wiring.executor == 'single'
+        subscription = self._subscription(
+            message_type, topic, on_numbered_message if is_numbered else on_message
+        )
         return subscription
 
     def _subscription(
@@ -200,14 +206,17 @@ class Estimator(LifecycleNode):
             DIAGNOSTICS_PERIOD, self._on_diagnostics_time, clock=steady
         )
         self._watchdog = self.create_timer(DIAGNOSTICS_PERIOD, self._on_stale_input, clock=steady)
-        self._diagnostics_timer.cancel()
-        self._watchdog.cancel()
         self._jump_handle = self.get_clock().create_jump_callback(
             JumpThreshold(
                 min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=True
             ),
             post_callback=lambda _jump: self._source.forget(),
         )
+
+    @property
+    def executor_kind(self) -> str:
+        """Which executor is to spin the node: ``single`` or ``events``."""
+        return self._wiring.executor
 
     # Lifecycle
 
@@ -229,6 +238,7 @@ class Estimator(LifecycleNode):
         """Begin to estimate."""
         self._let_pass_what_waits()
         self._health.begin_period()
+        self._health.stale = False
         self._watchdog.timer_period_ns = int(self._settings.input_timeout * 1e9)
         self._watchdog.reset()
         self._diagnostics_timer.reset()
@@ -238,15 +248,14 @@ class Estimator(LifecycleNode):
 
     def _let_pass_what_waits(self) -> None:
         """Take the messages that came while inactive, which are not of the present."""
+        self._newest.clear()
         for subscription in self._inputs:
             with subscription.handle:
                 for _ in range(INPUT_DEPTH):
-                    taken = subscription.handle.take_message(
+                    if not subscription.handle.take_message(
                         subscription.msg_type, subscription.raw
-                    )
-                    if taken is None:
+                    ):
                         break
-                    subscription.callback(*taken)
 
     def on_deactivate(self, _state: LifecycleState) -> TransitionCallbackReturn:
         """Do and publish nothing until activated again."""
@@ -275,8 +284,6 @@ class Estimator(LifecycleNode):
 
     def _stop(self) -> None:
         if self._state == ACTIVE:
-            self._watchdog.cancel()
-            self._diagnostics_timer.cancel()
             self._source.forget()
             self._lose_sight()
             self._report()
@@ -383,8 +390,12 @@ class Estimator(LifecycleNode):
     # Health
 
     def _on_stale_input(self) -> None:
-        """Say once that no more tensions come; what is drawn or remembered is not vouched for."""
-        self._watchdog.cancel()
+        """Say once that no more tensions come; what is drawn or remembered is not vouched for.
+
+        The watchdog goes on, for EventsExecutor does not bear timers that are cancelled.
+        """
+        if self._state != ACTIVE or self._health.stale:
+            return
         self._lose_sight()
         self._source.loosen()
         if self._latest is not None:
@@ -403,8 +414,9 @@ class Estimator(LifecycleNode):
         self._outputs.clear_drawing()
 
     def _on_diagnostics_time(self) -> None:
-        self._report()
-        self._health.begin_period()
+        if self._state == ACTIVE:
+            self._report()
+            self._health.begin_period()
 
     def _report_change(self, *, recovered: bool = False) -> None:
         """Report at once what got worse, or that tensions come again; the rest can wait.

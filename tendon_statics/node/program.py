@@ -11,6 +11,7 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module
 from types import FrameType
+from typing import Any
 
 WAKE_PERIOD = 0.5
 """Longest time in s that a node goes on after a signal that it slept through."""
@@ -41,7 +42,7 @@ def _run(name: str, node_class: str, arguments: Sequence[str] | None) -> int:
         import rclpy
         from rclpy.clock import Clock, ClockType
         from rclpy.exceptions import ParameterException
-        from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+        from rclpy.executors import ExternalShutdownException
         from rclpy.utilities import remove_ros_args
 
         make_node = getattr(import_module(f'{__package__}.{name}'), node_class)
@@ -70,7 +71,6 @@ def _run(name: str, node_class: str, arguments: Sequence[str] | None) -> int:
         return _say(name, error)
     node = None
     try:
-        executor = SingleThreadedExecutor()
         if interrupted:
             return 0
         try:
@@ -81,8 +81,7 @@ def _run(name: str, node_class: str, arguments: Sequence[str] | None) -> int:
         # rclpy wakes the executor on a signal and shuts the context down beside that. An
         # executor that looks at the context in between waits again, and must not for ever.
         node.create_timer(WAKE_PERIOD, _do_nothing, clock=Clock(clock_type=ClockType.STEADY_TIME))
-        executor.add_node(node)
-        executor.spin()
+        _spin(node)
     except ExternalShutdownException:
         pass
     except Exception:
@@ -94,6 +93,24 @@ def _run(name: str, node_class: str, arguments: Sequence[str] | None) -> int:
             node.destroy_node()
         rclpy.try_shutdown()
     return 0
+
+
+def _spin(node: Any) -> None:
+    """Spin a node in the executor that it asks for, until the context ends."""
+    if getattr(node, 'executor_kind', 'single') == 'single':
+        from rclpy.executors import SingleThreadedExecutor
+
+        executor = SingleThreadedExecutor()
+        executor.add_node(node)
+        executor.spin()
+        return
+    from rclpy.experimental import EventsExecutor
+
+    executor = EventsExecutor()
+    executor.add_node(node)
+    # In PyPI's wheels its endless spin() hangs; in turns of a second it works everywhere.
+    while node.context.ok():
+        executor.spin_once(timeout_sec=1.0)
 
 
 def _exit_at_once(_number: int, _frame: FrameType | None) -> None:

@@ -26,6 +26,7 @@ class Wiring(NamedTuple):
     frame_id: str
     joint_name: str
     markers: bool
+    executor: str
 
 
 def declare_wiring(node: Node) -> Wiring:
@@ -56,4 +57,9 @@ def declare_wiring(node: Node) -> Wiring:
         ),
         joint_name=declare_fixed(node, 'joint_name', 'bend', 'name of the joint in ~/joint_state'),
         markers=declare_fixed(node, 'markers', False, 'whether there is ~/markers, for RViz'),
+        executor=declare_choice(
+            *(node, 'executor', ('single', 'events')),
+            "single: rclpy's default executor; events: its experimental EventsExecutor, which "
+            'takes less of the processor',
+        ),
     )
