@@ -1,5 +1,7 @@
 """The quasi-static model of a tendon-driven ball-joint unit: no ROS, no files, no printing."""
 
+from typing import TYPE_CHECKING, Any
+
 from .admissible import admissible_angles, slip_margin
 from .contact import ContactCoefficients, ContactForces, ForceRemainder, contact_coefficients
 from .design import DesignParameter, JointDesign, design_parameters
@@ -10,6 +12,9 @@ from .inverse import Tensions, tensions_for
 from .solver import solve
 from .tracker import StickSlipTracker, TrackedState
 
+if TYPE_CHECKING:
+    from .batch import EquilibriumBatch, solve_batch
+
 __all__ = [
     'BendAngleError',
     'ContactCoefficients',
@@ -17,6 +22,7 @@ __all__ = [
     'DesignError',
     'DesignParameter',
     'Equilibrium',
+    'EquilibriumBatch',
     'ForceRemainder',
     'JointDesign',
     'Regime',
@@ -32,5 +38,15 @@ __all__ = [
     'residual',
     'slip_margin',
     'solve',
+    'solve_batch',
     'tensions_for',
 ]
+
+
+def __getattr__(name: str) -> Any:
+    # NumPy is loaded only by who asks for what needs it.
+    if name in ('EquilibriumBatch', 'solve_batch'):
+        from . import batch
+
+        return getattr(batch, name)
+    raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
