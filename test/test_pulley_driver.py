@@ -6,7 +6,7 @@ from ros_programs import Program, spinning, wait_for
 from std_msgs.msg import Float64MultiArray
 
 from tendon_statics.installed_files import installed_config
-from tendon_statics.tension_file import load_tensions
+from tendon_statics.recordings.load import load_recording
 
 
 class Audience(Node):
@@ -34,7 +34,7 @@ def test_it_plays_every_row_once_in_order(played):
         'pulley_driver', '--ros-args', *(part for a in arguments for part in ('-p', a))
     ) as program:
         wait_for('the last row', lambda: 'Played' in program.output())
-        rows = [row[:2] for row in load_tensions(installed_config('demo_tensions.csv'))]
+        rows = load_recording(installed_config('demo_tensions.csv')).tensions()
         wait_for('every row', lambda: len(played) == len(rows))
         assert played == rows
         assert program.end() == 0

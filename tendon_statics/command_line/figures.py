@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..output_file import output_file
 from .options import UsageError
 
 if TYPE_CHECKING:
@@ -39,7 +40,9 @@ def figure(path: Path, width: float = 6.4, height: float = 4.0) -> Iterator[Axes
     Raises
     ------
     UsageError
-        If the ending is not one of `FORMATS`, matplotlib is missing or the file cannot be written.
+        If the ending is not one of `FORMATS`, or matplotlib is missing.
+    OutputError
+        If the file cannot be written.
     """
     if path.suffix not in FORMATS:
         raise UsageError(f'{path}: a figure is written to a file ending in {", ".join(FORMATS)}')
@@ -54,7 +57,5 @@ def figure(path: Path, width: float = 6.4, height: float = 4.0) -> Iterator[Axes
         drawing = Figure(figsize=(width, height))
         yield drawing.subplots()
         metadata = {'Date': None} if path.suffix == '.svg' else {}
-        try:
-            drawing.savefig(path, metadata=metadata)
-        except OSError as error:
-            raise UsageError(f'{path}: it cannot be written: {error.strerror}') from None
+        with output_file(path) as temporary:
+            drawing.savefig(temporary, metadata=metadata)

@@ -9,8 +9,9 @@ from collections.abc import Sequence
 from importlib import import_module
 from typing import NoReturn
 
+from ..output_file import OutputError
 from ..physics.errors import BendAngleError, DesignError, TensionError, UnreachableError
-from ..tension_file import TensionFileError
+from ..recordings.errors import RecordingError
 from .options import UsageError
 
 VERBS = {
@@ -31,7 +32,8 @@ ERRORS = (
     TensionError,
     BendAngleError,
     UnreachableError,
-    TensionFileError,
+    RecordingError,
+    OutputError,
     OSError,
 )
 """What is the user's to mend"""

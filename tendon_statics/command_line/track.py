@@ -7,7 +7,7 @@ import csv
 import sys
 
 from ..physics import StickSlipTracker, TensionError
-from ..tension_file import Sample, load_tensions
+from ..recordings.load import load_recording
 from .options import add_design_option, design_from
 
 COLUMNS = ('tension_l', 'tension_s', 'bend_angle', 'regime', 'slip_margin', 'angle_assured')
@@ -33,18 +33,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> None:
     """Print a row for each row of the file: angle in rad, regime, margin, certainty."""
     tracker = StickSlipTracker(design_from(options), options.initial_bend_angle)
-    samples = load_tensions(options.file)
-    has_times = samples[0].time is not None
+    recording = load_recording(options.file).whole()
     writer = csv.writer(sys.stdout, lineterminator='\n')
-    writer.writerow(['time', *COLUMNS] if has_times else COLUMNS)
-    for sample in samples:
-        row = [sample.tension_l, sample.tension_s, *_tracked(tracker, sample)]
-        writer.writerow([sample.time, *row] if has_times else row)
+    writer.writerow(COLUMNS if recording.time is None else ['time', *COLUMNS])
+    for index, tensions in enumerate(recording.tensions()):
+        row = [*tensions, *_tracked(tracker, *tensions)]
+        writer.writerow(row if recording.time is None else [recording.time[index], *row])
 
 
-def _tracked(tracker: StickSlipTracker, sample: Sample) -> tuple[object, ...]:
+def _tracked(tracker: StickSlipTracker, tension_l: float, tension_s: float) -> tuple[object, ...]:
     try:
-        state = tracker.update(sample.tension_l, sample.tension_s)
+        state = tracker.update(tension_l, tension_s)
     except TensionError:
         return '', 'invalid', '', ''
     return state.bend_angle, state.regime, state.slip_margin, state.angle_assured

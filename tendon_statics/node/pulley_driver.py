@@ -9,7 +9,8 @@ from rclpy.node import Node
 from std_msgs.msg import Float64MultiArray
 
 from ..installed_files import installed_config
-from ..tension_file import TensionFileError, load_tensions
+from ..recordings.errors import RecordingError
+from ..recordings.load import load_recording
 from .program import StartError
 
 MIN_RATE, MAX_RATE = 0.01, 10000.0
@@ -41,9 +42,10 @@ class PulleyDriver(Node):
             integer_range=[IntegerRange(from_value=0, to_value=100)],
         )
         try:
-            self._rows = load_tensions(path or installed_config('demo_tensions.csv'))
-        except TensionFileError as error:
+            recording = load_recording(path or installed_config('demo_tensions.csv')).whole()
+        except RecordingError as error:
             raise StartError(str(error)) from None
+        self._rows = recording.tensions()
         self._next = 0
         self._tensions = self.create_publisher(Float64MultiArray, 'tensions', 10)
         self._timer = self.create_timer(1.0 / rate, self._play)
@@ -56,7 +58,7 @@ class PulleyDriver(Node):
         if self._tensions.get_subscription_count() < self._awaited_subscribers:
             return
         self._awaited_subscribers = 0
-        self._tensions.publish(Float64MultiArray(data=self._rows[self._next][:2]))
+        self._tensions.publish(Float64MultiArray(data=self._rows[self._next]))
         self._next += 1
         if self._next == len(self._rows):
             self._next = 0
