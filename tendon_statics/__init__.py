@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 from . import physics
 from .design_file import default_design_path, load_design
 from .physics import (
+    CalibrationError,
     DesignError,
     Equilibrium,
     JointDesign,
@@ -12,25 +13,42 @@ from .physics import (
     TensionError,
     solve,
 )
+from .recordings.errors import RecordingError
 
 if TYPE_CHECKING:
-    from .physics import EquilibriumBatch, solve_batch
+    from .physics import Calibration, EquilibriumBatch, calibrate, solve_batch
+    from .recordings.load import load_recording
+    from .recordings.recording import Recording
 
 __all__ = [
+    'Calibration',
+    'CalibrationError',
     'DesignError',
     'Equilibrium',
     'EquilibriumBatch',
     'JointDesign',
+    'Recording',
+    'RecordingError',
     'Regime',
     'TensionError',
+    'calibrate',
     'default_design_path',
     'load_design',
+    'load_recording',
     'solve',
     'solve_batch',
 ]
 
 
 def __getattr__(name: str) -> Any:
-    if name in ('EquilibriumBatch', 'solve_batch'):
+    if name in ('Calibration', 'EquilibriumBatch', 'calibrate', 'solve_batch'):
         return getattr(physics, name)
+    if name == 'load_recording':
+        from .recordings.load import load_recording
+
+        return load_recording
+    if name == 'Recording':
+        from .recordings.recording import Recording
+
+        return Recording
     raise AttributeError(f'module {__name__!r} has no attribute {name!r}')

@@ -7,16 +7,26 @@ from .contact import ContactCoefficients, ContactForces, ForceRemainder, contact
 from .design import DesignParameter, JointDesign, design_parameters
 from .equations import residual
 from .equilibrium import Equilibrium, Regime, TensionGradient
-from .errors import BendAngleError, DesignError, TensionError, UnreachableError
+from .errors import (
+    BendAngleError,
+    CalibrationError,
+    DesignError,
+    TensionError,
+    UnreachableError,
+)
 from .inverse import Tensions, tensions_for
 from .solver import solve
 from .tracker import StickSlipTracker, TrackedState
 
 if TYPE_CHECKING:
     from .batch import EquilibriumBatch, solve_batch
+    from .calibration import calibrate
+    from .calibration_result import Calibration
 
 __all__ = [
     'BendAngleError',
+    'Calibration',
+    'CalibrationError',
     'ContactCoefficients',
     'ContactForces',
     'DesignError',
@@ -33,6 +43,7 @@ __all__ = [
     'TrackedState',
     'UnreachableError',
     'admissible_angles',
+    'calibrate',
     'contact_coefficients',
     'design_parameters',
     'residual',
@@ -49,4 +60,12 @@ def __getattr__(name: str) -> Any:
         from . import batch
 
         return getattr(batch, name)
+    if name == 'calibrate':
+        from .calibration import calibrate
+
+        return calibrate
+    if name == 'Calibration':
+        from .calibration_result import Calibration
+
+        return Calibration
     raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
