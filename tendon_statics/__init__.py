@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 from . import physics
-from .design_file import default_design_path, load_design
+from .design_file import default_design_path, load_design, save_design
 from .physics import (
     CalibrationError,
     DesignError,
@@ -35,6 +35,7 @@ __all__ = [
     'default_design_path',
     'load_design',
     'load_recording',
+    'save_design',
     'solve',
     'solve_batch',
 ]

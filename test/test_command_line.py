@@ -9,20 +9,13 @@ from dataclasses import asdict
 from pathlib import Path
 
 import pytest
-from ament_index_python.packages import get_package_prefix
 from designs import PRELIMINARY
+from programs import PROGRAM, assert_refused, run
 
 from tendon_statics import Equilibrium, default_design_path, solve
 from tendon_statics.physics import admissible_angles
 
-PROGRAM = [f'{get_package_prefix("tendon_statics")}/lib/tendon_statics/tendon-statics']
 CASE = ['solve', '--tension-l', '1', '--tension-s', '2']
-
-
-def run(*arguments: str) -> subprocess.CompletedProcess:
-    return subprocess.run(
-        [*PROGRAM, *arguments], capture_output=True, text=True, timeout=60, check=False
-    )
 
 
 def test_solve_as_text_gives_the_published_case():
@@ -90,12 +83,7 @@ def test_a_design_file_is_used(tmp_path):
     ],
 )
 def test_an_error_is_one_line_and_exit_code_2(arguments, named):
-    done = run(*arguments)
-    assert done.returncode == 2
-    assert done.stdout == ''
-    assert done.stderr.startswith('tendon-statics: ')
-    assert done.stderr.count('\n') == 1
-    assert named in done.stderr
+    assert_refused(run(*arguments), named)
 
 
 def test_admissible_prints_the_intervals():
@@ -201,7 +189,7 @@ def test_the_version_is_the_packages():
 
 def test_the_physics_needs_neither_ros_nor_files_nor_the_command_line():
     """It is imported alone, with all of these made to fail."""
-    barred = ['rclpy', 'yaml', 'std_msgs', 'argparse', 'json', 'scipy', 'matplotlib']
+    barred = ['rclpy', 'yaml', 'std_msgs', 'argparse', 'json', 'numpy', 'scipy', 'matplotlib']
     code = (
         f'import sys; sys.modules.update(dict.fromkeys({barred!r}))\n'
         'from tendon_statics.physics import JointDesign, solve\n'

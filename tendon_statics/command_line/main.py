@@ -10,13 +10,20 @@ from importlib import import_module
 from typing import NoReturn
 
 from ..output_file import OutputError
-from ..physics.errors import BendAngleError, DesignError, TensionError, UnreachableError
+from ..physics.errors import (
+    BendAngleError,
+    CalibrationError,
+    DesignError,
+    TensionError,
+    UnreachableError,
+)
 from ..recordings.errors import RecordingError
 from .options import UsageError
 
 VERBS = {
     'solve': 'bend angle and joint pressure of one pair of cable tensions',
     'admissible': 'the bend angles at which friction can hold the unit',
+    'calibrate': 'fit a design to a recorded session, with the uncertainty of every value',
     'track': 'follow the unit, with memory, through the tensions of a CSV file',
     'invert': 'the tensions at which the unit is about to slip at a bend angle',
     'paper': "the paper's published case: errata, identified values and sign check, as tables",
@@ -32,6 +39,7 @@ ERRORS = (
     TensionError,
     BendAngleError,
     UnreachableError,
+    CalibrationError,
     RecordingError,
     OutputError,
     OSError,
@@ -57,7 +65,11 @@ class _Version(argparse.Action):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run ``tendon-statics``; return the exit code: 0, or 2 with one line on stderr."""
+    """Run ``tendon-statics``; return the exit code.
+
+    It is 0; 1 if a recording could not be read as a whole, with what was missing on stderr; or 2
+    with one line on stderr.
+    """
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     parser = _Parser(
         prog='tendon-statics',
@@ -73,7 +85,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             subparser.set_defaults(run=module.run)
     try:
         chosen = parser.parse_args(arguments)
-        chosen.run(chosen)
+        code: int | None = chosen.run(chosen)
         sys.stdout.flush()
     except BrokenPipeError:
         # The reader of our output has gone, as `head` does; that is no error of ours.
@@ -84,7 +96,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(error, OSError):
             _drop_output()
         return 2
-    return 0
+    return code or 0
 
 
 def _drop_output() -> None:

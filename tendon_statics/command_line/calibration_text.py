@@ -1,0 +1,82 @@
+"""A calibration in words and tables."""
+
+from __future__ import annotations
+
+import math
+
+from ..physics import Calibration, design_parameters
+from ..physics.calibration_result import HELD, SLIPPING, FittedParameter
+from .tables import markdown_table
+
+_UNITS = {parameter.name: parameter.unit or '1' for parameter in design_parameters()}
+
+PARAMETER_TITLES = (
+    *('parameter', 'unit', 'start:', 'fitted:', 'standard error:', '95 % interval'),
+)
+
+
+def parameter_rows(calibration: Calibration) -> list[tuple[str, ...]]:
+    """Rows of the table of fitted parameters, under `PARAMETER_TITLES`."""
+    return [
+        (
+            parameter.name,
+            _UNITS[parameter.name],
+            f'{parameter.start:.6g}',
+            f'{parameter.value:.6g}',
+            _error(parameter),
+            _interval(parameter),
+        )
+        for parameter in calibration.parameters
+    ]
+
+
+def correlation_rows(calibration: Calibration) -> list[tuple[str, ...]]:
+    """Rows of the table of correlations; its titles are the names of the parameters."""
+    return [
+        (parameter.name, *('' if math.isnan(value) else f'{value:+.3f}' for value in row))
+        for parameter, row in zip(
+            calibration.parameters, calibration.correlation.tolist(), strict=True
+        )
+    ]
+
+
+def summary_lines(calibration: Calibration, name: str) -> list[str]:
+    """What was fitted to and how well it fits, a line each."""
+    noise, residuals = calibration.noise, calibration.residuals
+    counts = dict(calibration.counts)
+    slipping, with_pressure, held = (counts.pop(key) for key in (SLIPPING, 'with pressure', HELD))
+    unused = ', '.join(f'{reason}: {count}' for reason, count in counts.items()) or 'none'
+    return [
+        f'data          {name}',
+        f'samples       slipping: {slipping}, with a pressure: {with_pressure}, held: {held}',
+        f'not used      {unused}',
+        f'noise         {noise.tension:g} N, {math.degrees(noise.bend_angle):.3g} deg'
+        + (f', {noise.pressure:.3g} Pa' if with_pressure else '')
+        + ', as stated',
+        f'distances     root mean square {residuals.root_mean_square:.2f}, '
+        f'median {residuals.median:.2f}, largest {residuals.largest:.1f} in units of that noise; '
+        f'{residuals.outliers} beyond 3',
+        f'freedom       {residuals.degrees_of_freedom}: equations less fitted parameters',
+    ]
+
+
+def calibration_text(calibration: Calibration, name: str) -> str:
+    """Everything, as it is printed."""
+    titles = ('correlation', *(f'{parameter.name}:' for parameter in calibration.parameters))
+    parts = ['\n'.join(summary_lines(calibration, name))]
+    parts.append(markdown_table(PARAMETER_TITLES, parameter_rows(calibration)))
+    if len(calibration.parameters) > 1:
+        parts.append(markdown_table(titles, correlation_rows(calibration)))
+    if calibration.warnings:
+        parts.append('\n'.join(f'warning       {warning}' for warning in calibration.warnings))
+    return '\n\n'.join(parts)
+
+
+def _error(parameter: FittedParameter) -> str:
+    error = parameter.standard_error
+    return 'not determined' if error is None else f'{error:.2g}'
+
+
+def _interval(parameter: FittedParameter) -> str:
+    interval = parameter.interval
+    return 'not determined' if interval is None else f'{interval[0]:.6g} to {interval[1]:.6g}'
