@@ -122,7 +122,7 @@ def test_track_follows_a_file_with_memory(tmp_path):
     assert [row['angle_assured'] for row in table] == [
         'True',
         'True',
-        '',
+        'False',
         'True',
         'False',
         'False',

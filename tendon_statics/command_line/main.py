@@ -24,6 +24,8 @@ VERBS = {
     'solve': 'bend angle and joint pressure of one pair of cable tensions',
     'admissible': 'the bend angles at which friction can hold the unit',
     'calibrate': 'fit a design to a recorded session, with the uncertainty of every value',
+    'replay': 'every sample of a recorded session through the model',
+    'sweep': 'a map of the answers over both cable tensions, as a file',
     'track': 'follow the unit, with memory, through the tensions of a CSV file',
     'invert': 'the tensions at which the unit is about to slip at a bend angle',
     'paper': "the paper's published case: errata, identified values and sign check, as tables",

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import csv
 import sys
+from typing import Any
 
-from ..physics import StickSlipTracker, TensionError
+from numpy.typing import NDArray
+
 from ..recordings.load import load_recording
+from ..recordings.replay import replay
+from ..recordings.table_output import write_csv
 from .options import add_design_option, design_from
-
-COLUMNS = ('tension_l', 'tension_s', 'bend_angle', 'regime', 'slip_margin', 'angle_assured')
+from .recording_options import report_damage
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,20 +32,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_design_option(parser)
 
 
-def run(options: argparse.Namespace) -> None:
-    """Print a row for each row of the file: angle in rad, regime, margin, certainty."""
-    tracker = StickSlipTracker(design_from(options), options.initial_bend_angle)
-    recording = load_recording(options.file).whole()
-    writer = csv.writer(sys.stdout, lineterminator='\n')
-    writer.writerow(COLUMNS if recording.time is None else ['time', *COLUMNS])
-    for index, tensions in enumerate(recording.tensions()):
-        row = [*tensions, *_tracked(tracker, *tensions)]
-        writer.writerow(row if recording.time is None else [recording.time[index], *row])
-
-
-def _tracked(tracker: StickSlipTracker, tension_l: float, tension_s: float) -> tuple[object, ...]:
-    try:
-        state = tracker.update(tension_l, tension_s)
-    except TensionError:
-        return '', 'invalid', '', ''
-    return state.bend_angle, state.regime, state.slip_margin, state.angle_assured
+def run(options: argparse.Namespace) -> int:
+    """Print a row for each sample: angle in rad, regime, margin, certainty."""
+    recording = load_recording(options.file)
+    tracked = replay(
+        design_from(options),
+        recording,
+        'tracking',
+        initial_bend_angle=options.initial_bend_angle,
+    )
+    columns: dict[str, NDArray[Any]] = {}
+    if recording.time is not None:
+        columns['time'] = recording.time
+    columns |= {
+        'tension_l': recording.tension_l,
+        'tension_s': recording.tension_s,
+        'bend_angle': tracked.bend_angle,
+        'regime': tracked.regime,
+        'slip_margin': tracked.slip_margin,
+        'angle_assured': tracked.angle_assured,
+    }
+    write_csv(sys.stdout, columns)
+    return report_damage(recording)
