@@ -13,6 +13,7 @@ from designs import PRELIMINARY
 from programs import PROGRAM, assert_refused, run
 
 from tendon_statics import Equilibrium, default_design_path, solve
+from tendon_statics.command_line.main import VERBS
 from tendon_statics.physics import admissible_angles
 
 CASE = ['solve', '--tension-l', '1', '--tension-s', '2']
@@ -133,7 +134,7 @@ def test_track_follows_a_file_with_memory(tmp_path):
 def test_help_names_every_verb():
     done = run('--help')
     assert done.returncode == 0
-    for verb in ('solve', 'admissible', 'track', 'invert', 'design', 'paper', 'plot'):
+    for verb in VERBS:
         assert verb in done.stdout
         assert run(verb, '--help').returncode == 0
 
@@ -149,7 +150,7 @@ def test_design_shows_every_value():
     ('figure', 'ending'),
     [
         *(('residual', ending) for ending in ('svg', 'png', 'pdf')),
-        *((figure, 'svg') for figure in ('unit', 'hysteresis')),
+        *((figure, 'svg') for figure in ('unit', 'hysteresis', 'map')),
     ],
 )
 def test_a_figure_is_written_the_same_each_time(tmp_path, figure, ending):

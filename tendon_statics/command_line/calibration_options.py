@@ -9,7 +9,7 @@ from ..physics import Calibration, JointDesign, calibrate
 from ..physics.calibration import DEFAULT_FIT
 from ..recordings.motion import mark_motion
 from ..recordings.recording import Recording
-from .options import UsageError
+from .options import UsageError, add_tension_stddev_option
 
 
 def add_calibration_options(parser: argparse.ArgumentParser) -> None:
@@ -28,13 +28,7 @@ def add_calibration_options(parser: argparse.ArgumentParser) -> None:
         'two samples, the sample before is slipping, those at rest are held; default: the '
         "recording's states, or, without any, every sample with an angle is slipping",
     )
-    parser.add_argument(
-        '--tension-stddev',
-        type=float,
-        default=0.01,
-        metavar='N',
-        help='standard deviation of each tension; default: %(default)s',
-    )
+    add_tension_stddev_option(parser)
     parser.add_argument(
         '--bend-angle-stddev-deg',
         type=float,

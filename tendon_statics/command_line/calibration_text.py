@@ -6,7 +6,7 @@ import math
 
 from ..physics import Calibration, design_parameters
 from ..physics.calibration_result import HELD, SLIPPING, FittedParameter
-from .tables import markdown_table
+from .tables import Facts, fact_lines, markdown_table
 
 _UNITS = {parameter.name: parameter.unit or '1' for parameter in design_parameters()}
 
@@ -40,35 +40,40 @@ def correlation_rows(calibration: Calibration) -> list[tuple[str, ...]]:
     ]
 
 
-def summary_lines(calibration: Calibration, name: str) -> list[str]:
-    """What was fitted to and how well it fits, a line each."""
+def calibration_facts(calibration: Calibration, name: str) -> Facts:
+    """What was fitted to and how well it fits."""
     noise, residuals = calibration.noise, calibration.residuals
     counts = dict(calibration.counts)
     slipping, with_pressure, held = (counts.pop(key) for key in (SLIPPING, 'with pressure', HELD))
-    unused = ', '.join(f'{reason}: {count}' for reason, count in counts.items()) or 'none'
+    of_pressure = f', {noise.pressure:.3g} Pa' if with_pressure else ''
     return [
-        f'data          {name}',
-        f'samples       slipping: {slipping}, with a pressure: {with_pressure}, held: {held}',
-        f'not used      {unused}',
-        f'noise         {noise.tension:g} N, {math.degrees(noise.bend_angle):.3g} deg'
-        + (f', {noise.pressure:.3g} Pa' if with_pressure else '')
-        + ', as stated',
-        f'distances     root mean square {residuals.root_mean_square:.2f}, '
-        f'median {residuals.median:.2f}, largest {residuals.largest:.1f} in units of that noise; '
-        f'{residuals.outliers} beyond 3',
-        f'freedom       {residuals.degrees_of_freedom}: equations less fitted parameters',
+        ('data', name),
+        ('samples', f'slipping: {slipping}, with a pressure: {with_pressure}, held: {held}'),
+        ('not used', ', '.join(f'{why}: {count}' for why, count in counts.items()) or 'none'),
+        (
+            'noise',
+            f'{noise.tension:g} N, {math.degrees(noise.bend_angle):.3g} deg{of_pressure}, '
+            'as stated',
+        ),
+        (
+            'distances',
+            f'root mean square {residuals.root_mean_square:.2f}, median {residuals.median:.2f}, '
+            f'largest {residuals.largest:.1f} in units of that noise; '
+            f'{residuals.outliers} beyond 3',
+        ),
+        ('freedom', f'{residuals.degrees_of_freedom}: equations less fitted parameters'),
     ]
 
 
 def calibration_text(calibration: Calibration, name: str) -> str:
     """Everything, as it is printed."""
     titles = ('correlation', *(f'{parameter.name}:' for parameter in calibration.parameters))
-    parts = ['\n'.join(summary_lines(calibration, name))]
+    parts = [fact_lines(calibration_facts(calibration, name))]
     parts.append(markdown_table(PARAMETER_TITLES, parameter_rows(calibration)))
     if len(calibration.parameters) > 1:
         parts.append(markdown_table(titles, correlation_rows(calibration)))
     if calibration.warnings:
-        parts.append('\n'.join(f'warning       {warning}' for warning in calibration.warnings))
+        parts.append(fact_lines([('warning', warning) for warning in calibration.warnings]))
     return '\n\n'.join(parts)
 
 

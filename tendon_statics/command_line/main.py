@@ -25,12 +25,13 @@ VERBS = {
     'admissible': 'the bend angles at which friction can hold the unit',
     'calibrate': 'fit a design to a recorded session, with the uncertainty of every value',
     'replay': 'every sample of a recorded session through the model',
+    'report': 'a recorded session and its calibration as one HTML file',
     'sweep': 'a map of the answers over both cable tensions, as a file',
     'track': 'follow the unit, with memory, through the tensions of a CSV file',
     'invert': 'the tensions at which the unit is about to slip at a bend angle',
     'paper': "the paper's published case: errata, identified values and sign check, as tables",
     'design': 'check a design file and show what is in it',
-    'plot': 'figures: Eq. (4), the unit, its hysteresis',
+    'plot': 'figures: Eq. (4), the unit, its hysteresis, maps, recordings, calibrations',
 }
 """Verb → what it does; the module of the same name has the rest."""
 

@@ -51,7 +51,11 @@ def add_recording_options(parser: argparse.ArgumentParser) -> None:
     bag.add_argument(
         '--joint-name', metavar='NAME', help='in a JointState of the angle; default: its only one'
     )
-    bag.add_argument('--pressure-topic', metavar='TOPIC', help='Float64')
+    bag.add_argument(
+        '--pressure-topic',
+        metavar='TOPIC',
+        help='Float64; default: /measured_pressure, if it is there',
+    )
     bag.add_argument('--state-topic', metavar='TOPIC', help='String: slipping or held')
     bag.add_argument(
         '--max-skew',

@@ -7,13 +7,16 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..output_file import OutputError
+from ..physics import JointDesign
 from ..recordings.bag_output import write_bag
+from ..recordings.recording import Recording
 from ..recordings.replay import ESTIMATIONS, Replay, replay
 from ..recordings.table_output import write_table
-from .options import add_design_option, design_from
+from .options import add_design_option, add_tension_stddev_option, design_from
 from .progress import with_progress
 from .recording_options import add_recording_options, recording_from, report_damage
-from .replay_text import replay_lines
+from .replay_text import replay_facts
+from .tables import fact_lines
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -21,6 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_recording_options(parser)
     add_design_option(parser)
     add_estimation_options(parser)
+    add_tension_stddev_option(parser)
     parser.add_argument(
         '--output',
         type=Path,
@@ -44,31 +48,29 @@ def add_estimation_options(parser: argparse.ArgumentParser) -> None:
         metavar='RAD',
         help='where a tracked unit is at first, in rad; default: %(default)s',
     )
-    parser.add_argument(
-        '--tension-stddev',
-        type=float,
-        default=0.01,
-        metavar='N',
-        help='standard deviation of each tension; default: %(default)s',
-    )
 
 
 def run(options: argparse.Namespace) -> int:
     """Replay, write the samples, print a summary."""
     write = _writer(options.output)
     recording = recording_from(options)
-    replayed = replay(
-        design_from(options),
+    replayed = replay_from(options, design_from(options), recording)
+    if write is not None:
+        write(options.output, replayed)
+    print(fact_lines(replay_facts(replayed)))
+    return report_damage(recording)
+
+
+def replay_from(options: argparse.Namespace, design: JointDesign, recording: Recording) -> Replay:
+    """Replay a recording as the options ask for."""
+    return replay(
+        design,
         recording,
         options.estimation,
         initial_bend_angle=options.initial_bend_angle,
         tension_stddev=options.tension_stddev,
         progress=with_progress,
     )
-    if write is not None:
-        write(options.output, replayed)
-    print('\n'.join(replay_lines(replayed)))
-    return report_damage(recording)
 
 
 def _writer(path: Path | None) -> Callable[[Path, Replay], None] | None:

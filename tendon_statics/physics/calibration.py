@@ -298,6 +298,7 @@ class _Problem:
         used = samples.slipping | samples.held
         everywhere = self._distance(scaled, np.full(len(used), True))
         return Calibration(
+            start=self._design,
             design=dataclasses.replace(self._design, **values),
             parameters=fitted,
             correlation=identification.correlation,

@@ -59,6 +59,8 @@ class ResidualStatistics(NamedTuple):
 class Calibration:
     """The result of `calibrate`."""
 
+    start: JointDesign
+    """Where the fit began"""
     design: JointDesign
     """The start design with the fitted values"""
     parameters: tuple[FittedParameter, ...]

@@ -16,6 +16,7 @@ from .recording import Floats, Recording
 from .topics import FORCE_COMPONENTS, BagTopics
 
 DEFAULT_BEND_ANGLE = '/measured_bend_angle'
+DEFAULT_PRESSURE = '/measured_pressure'
 
 ARRAY = 'std_msgs/msg/Float64MultiArray'
 NUMBER = 'std_msgs/msg/Float64'
@@ -45,9 +46,9 @@ def load_bag(path: Path, topics: BagTopics) -> Recording:
             f'{len(topics.tensions)} topics of tensions are named; '
             'one is needed, or a pair for cables l and s'
         )
-    optional = DEFAULT_BEND_ANGLE if topics.bend_angle is None else None
     required = [*topics.tensions, topics.bend_angle, topics.pressure, topics.state]
-    bag = read_messages(path, [_full(name) for name in [*required, optional] if name])
+    wanted = [*required, DEFAULT_BEND_ANGLE, DEFAULT_PRESSURE]
+    bag = read_messages(path, [_full(name) for name in wanted if name])
     for name in filter(None, required):
         if _full(name) not in bag.types:
             there = ', '.join(f'{topic} ({kind})' for topic, kind in sorted(bag.types.items()))
@@ -60,8 +61,8 @@ def load_bag(path: Path, topics: BagTopics) -> Recording:
     origin = int(tensions.times[0])
     skew = round(topics.max_skew * 1e9)
 
-    def joined(name: str | None, series: Callable[[Messages, str], _Series]) -> Floats | None:
-        if name is None or _full(name) not in bag.types:
+    def joined(name: str, series: Callable[[Messages, str], _Series]) -> Floats | None:
+        if _full(name) not in bag.types:
             return None
         return _nearest_numbers(series(bag, _full(name)), tensions.times, skew)
 
@@ -72,7 +73,7 @@ def load_bag(path: Path, topics: BagTopics) -> Recording:
             topics.bend_angle or DEFAULT_BEND_ANGLE,
             lambda bag, name: _bend_angles(bag, name, topics.joint_name),
         ),
-        pressure=joined(topics.pressure, _numbers),
+        pressure=joined(topics.pressure or DEFAULT_PRESSURE, _numbers),
         state=_states(bag, _full(topics.state), tensions.times, skew) if topics.state else None,
         time=1e-9 * (tensions.times - origin).astype(np.float64),
         time_origin=origin,

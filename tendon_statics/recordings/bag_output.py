@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..output_file import OutputError, output_file
-from .bag import ARRAY, NUMBER, TEXT
+from .bag import ARRAY, DEFAULT_BEND_ANGLE, DEFAULT_PRESSURE, NUMBER, TEXT
 from .libraries import needed
 from .replay import Replay
 
@@ -18,7 +18,8 @@ PREFIX = '/replay/'
 
 TOPICS = {
     '/tensions': ARRAY,
-    '/measured_bend_angle': NUMBER,
+    DEFAULT_BEND_ANGLE: NUMBER,
+    DEFAULT_PRESSURE: NUMBER,
     f'{PREFIX}regime': TEXT,
     f'{PREFIX}bend_angle': NUMBER,
     f'{PREFIX}joint_pressure': NUMBER,
@@ -77,8 +78,12 @@ def _timed(replay: Replay, times: Sequence[int]) -> list[Iterator[tuple[int, str
         numbers(f'{PREFIX}joint_pressure', replay.pressure),
         numbers(f'{PREFIX}slip_margin', replay.slip_margin),
     ]
-    if recording.bend_angle is not None:
-        series.append(numbers('/measured_bend_angle', recording.bend_angle))
+    for topic, measured in (
+        (DEFAULT_BEND_ANGLE, recording.bend_angle),
+        (DEFAULT_PRESSURE, recording.pressure),
+    ):
+        if measured is not None:
+            series.append(numbers(topic, measured))
     return series
 
 

@@ -28,7 +28,7 @@ class BagTopics:
     joint_name: str | None = None
     """Name of the joint in that ``JointState``; None if it has just one"""
     pressure: str | None = None
-    """Topic of ``std_msgs/Float64``, Pa"""
+    """Topic of ``std_msgs/Float64``, Pa; None: ``/measured_pressure`` if the bag has it"""
     state: str | None = None
     """Topic of ``std_msgs/String``: ``slipping`` or ``held``"""
     max_skew: float = 0.02
