@@ -10,8 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from .contact import ContactForces, ForceRemainder
 from .design import JointDesign
-from .equilibrium import Regime, TensionGradient
+from .equilibrium import Regime
 from .errors import TensionError
+from .sensitivity import TensionGradient
 from .solver import solve
 
 REGIME_CODES = {regime: code for code, regime in enumerate(Regime)}
