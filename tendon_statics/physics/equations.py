@@ -21,6 +21,9 @@ from fractions import Fraction
 from .design import JointDesign
 from .geometry import Attitude
 
+Point = tuple[float, float, float, float, float]
+"""An angle θ, and there N_m / T, N_f / T, R / T and cos φ / cos θ"""
+
 
 class NormalForces:
     """N_m, N_f and R of one design and one pair of tensions, as shares of the total tension T.
@@ -39,11 +42,20 @@ class NormalForces:
         T in N.
     offset, gain : float
         Of the moment: N_m / T = offset + gain sin θ.
-    weight, excess, product : float
-        W / T, 1 − W / T and 1 − (W / T)².
+    weight, friction_weight, excess, product : float
+        W / T, μ W / T, 1 − W / T and 1 − (W / T)².
     """
 
-    __slots__ = ('excess', 'gain', 'geometry', 'offset', 'product', 'total', 'weight')
+    __slots__ = (
+        'excess',
+        'friction_weight',
+        'gain',
+        'geometry',
+        'offset',
+        'product',
+        'total',
+        'weight',
+    )
 
     def __init__(self, design: JointDesign, tension_l: float, tension_s: float) -> None:
         geometry = design.slip_geometry
@@ -53,19 +65,28 @@ class NormalForces:
         self.offset = (tension_s - tension_l) / total * geometry.cable_gain
         self.gain = geometry.weight_gain / total
         self.weight = weight = geometry.weight / total
-        self.excess = excess = weight_excess(design, tension_l, tension_s) / total
+        self.friction_weight = geometry.friction * weight
+        self.excess = excess = self._weight_excess(design, tension_l, tension_s) / total
         self.product = excess * (1.0 + weight)
 
-    def ratios(self, attitude: Attitude) -> tuple[float, float, float]:
-        """Return N_m / T, N_f / T and R / T at an attitude of the unit."""
-        _, sin_theta, spare, slide, _ = attitude
-        product = self.product
-        b = self.excess + self.weight * spare
-        lift = spare - self.excess
+    @staticmethod
+    def _weight_excess(design: JointDesign, tension_l: float, tension_s: float) -> float:
+        return weight_excess(design, tension_l, tension_s)
+
+    def point(self, bend_angle: float) -> Point:
+        """Return the three at an angle in rad."""
+        return self.point_at(self.geometry.attitude(bend_angle))
+
+    def point_at(self, attitude: Attitude) -> Point:
+        """Return the three at an attitude of the unit."""
+        bend_angle, sin_theta, spare, slide, direction = attitude
+        excess, product = self.excess, self.product
+        b = excess + self.weight * spare
+        lift = spare - excess
         root = math.sqrt(lift * lift + product * slide * slide)
         # B < 0 needs μ > 1; there the other form of the same root is the one that does not cancel.
         force = product / (b + root) if b > 0.0 else (root - b) / self.geometry.friction_excess
-        return self.offset + self.gain * sin_theta, force, root
+        return bend_angle, self.offset + self.gain * sin_theta, force, root, direction
 
     def quartic(self) -> tuple[float, float, float, float, float]:
         """Coefficients c0 to c4 of a quartic in t = tan(θ/2) whose roots include those of g.
@@ -76,12 +97,11 @@ class NormalForces:
         geometry = self.geometry
         offset, product = self.offset, self.product
         double_gain = 2.0 * self.gain
-        friction_weight = geometry.friction * self.weight
-        standing = 2.0 * friction_weight * geometry.sine
+        standing = 2.0 * self.friction_weight * geometry.sine
         # 2 B − (1 − μ²) N_m, which N_m is multiplied with, as h0 + h1 t + h2 t².
         middle = 2.0 + geometry.friction_excess * offset
         h0, h2 = middle - standing, middle + standing
-        h1 = geometry.friction_excess * double_gain - 4.0 * friction_weight * geometry.cosine
+        h1 = geometry.friction_excess * double_gain - 4.0 * self.friction_weight * geometry.cosine
         return (
             product - offset * h0,
             -offset * h1 - double_gain * h0,
@@ -102,7 +122,7 @@ def normal_force_ratios(
         Cable tensions in N, their sum above the weight.
     """
     forces = NormalForces(design, tension_l, tension_s)
-    return lambda bend_angle: forces.ratios(forces.geometry.attitude(bend_angle))
+    return lambda bend_angle: forces.point(bend_angle)[1:4]
 
 
 def weight_excess(design: JointDesign, tension_l: float, tension_s: float) -> float:

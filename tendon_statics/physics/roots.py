@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from .design import JointDesign
-from .equations import NormalForces
-from .geometry import Attitude
+from .equations import NormalForces, Point
 
 BEND_ANGLE_TOLERANCE = 1e-10
 """Width in rad of the bracket at which the bisection ends; the paper's."""
@@ -23,12 +21,7 @@ MOST_CUTS = 2000
 any unit but one made up to be flat"""
 
 
-Point = tuple[float, float, float, float, float]
-"""An angle θ, and there N_m / T, N_f / T, R / T and cos φ / cos θ"""
-_Interval = tuple[Point, Point]
-
-
-class SlipEquation:
+class SlipEquation(NormalForces):
     """g(θ) = N_m(θ) − N_f(θ) = 0 for one design and one pair of tensions.
 
     N_f and N_f / R both grow with sin φ: their derivatives by it are μ W N_f / R and
@@ -37,15 +30,7 @@ class SlipEquation:
     no root, or one at the most.
     """
 
-    __slots__ = ('_forces', '_friction_weight')
-
-    def __init__(self, design: JointDesign, tension_l: float, tension_s: float) -> None:
-        self._forces = NormalForces(design, tension_l, tension_s)
-        self._friction_weight = self._forces.weight * design.friction_coefficient
-
-    def point(self, bend_angle: float) -> Point:
-        """Return what is known of the equation at an angle in rad."""
-        return self._point_at(self._forces.geometry.attitude(bend_angle))
+    __slots__ = ()
 
     def residual(self, bend_angle: float) -> float:
         """Return g in N at an angle in rad."""
@@ -53,11 +38,7 @@ class SlipEquation:
 
     def residual_at(self, point: Point) -> float:
         """Return g in N."""
-        return self._forces.total * (point[1] - point[2])
-
-    def normal_force_at(self, point: Point) -> float:
-        """Return N_f in N."""
-        return self._forces.total * point[2]
+        return self.total * (point[1] - point[2])
 
     def slope(self, bend_angle: float) -> float:
         """∂g/∂θ in N/rad; not finite at the kink that N_f has where R = 0."""
@@ -65,13 +46,13 @@ class SlipEquation:
 
     def slope_at(self, point: Point) -> float:
         """∂g/∂θ in N/rad; not finite where R = 0."""
-        moment_slope = self._forces.total * self._forces.gain * math.cos(point[0])
-        return moment_slope - self.force_slope_at(point)
+        return self.total * self.gain * math.cos(point[0]) - self.force_slope_at(point)
 
     def force_slope_at(self, point: Point) -> float:
-        """∂N_f/∂θ in N/rad; not finite where R = 0."""
-        angle, _, _, _, direction = point
-        return self._forces.total * math.cos(angle) * self._friction_slope(point) * direction
+        """∂N_f/∂θ = μ W cos φ N_f / R in N/rad; not finite where R = 0."""
+        angle, _, force, root, direction = point
+        by_sine = self.friction_weight * force / root if root > 0.0 else math.inf
+        return self.total * by_sine * math.cos(angle) * direction
 
     def brackets(self, low: float, high: float) -> list[tuple[float, float]]:
         """Ascending, disjoint intervals in [low, high] that hold one root each and all together.
@@ -84,9 +65,9 @@ class SlipEquation:
         low, high : float
             Angles in rad, within ±π/2.
         """
-        if max(abs(self._forces.gain), self._friction_weight) < NEGLIGIBLE_WEIGHT:
+        if max(abs(self.gain), self.friction_weight) < NEGLIGIBLE_WEIGHT:
             return []
-        ends = [self._point_at(knot) for knot in self._forces.geometry.knots(low, high)]
+        ends = [self.point_at(knot) for knot in self.geometry.knots(low, high)]
         found = [(low, low)] if ends[0][1] == ends[0][2] else []
         pending = list(pairwise(ends))
         unresolved: list[_Interval] = []
@@ -108,7 +89,8 @@ class SlipEquation:
                     cuts += 1
         for cluster in _clusters(unresolved):
             found += _brackets_in(cluster)
-        return sorted(found)
+        found.sort()
+        return found
 
     def bisect(self, low: float, high: float) -> tuple[float, int]:
         """Halve a bracket down to `BEND_ANGLE_TOLERANCE`; return the root and the halvings.
@@ -129,7 +111,7 @@ class SlipEquation:
 
     def _bisect_quartic(self, low: float, high: float) -> tuple[float, float, int]:
         """Return the last bracket and the halvings; the innermost loop, with no call in it."""
-        c0, c1, c2, c3, c4 = self._forces.quartic()
+        c0, c1, c2, c3, c4 = self.quartic()
         t_low, t_high = math.tan(0.5 * low), math.tan(0.5 * high)
         if (((c4 * t_low + c3) * t_low + c2) * t_low + c1) * t_low + c0 < 0.0:
             c0, c1, c2, c3, c4 = -c0, -c1, -c2, -c3, -c4
@@ -159,26 +141,27 @@ class SlipEquation:
             iterations += 1
         return low, high, iterations
 
-    def _point_at(self, attitude: Attitude) -> Point:
-        return (attitude[0], *self._forces.ratios(attitude), attitude[4])
-
-    def _friction_slope(self, point: Point) -> float:
-        """μ W N_f / R in units of T: the slope of N_f by sin φ."""
-        _, _, force, root, _ = point
-        return self._friction_weight * force / root if root > 0.0 else math.inf
-
     def _is_monotonic(self, left: Point, right: Point) -> bool:
         """Whether the slope is shown to keep one sign over an interval.
 
         The slope's sign is that of (∂g/∂θ) / cos θ, in which cos φ / cos θ falls with θ.
         """
-        if left[3] == 0.0 or right[3] == 0.0:
+        _, _, left_force, left_root, left_direction = left
+        _, _, right_force, right_root, right_direction = right
+        if left_root == 0.0 or right_root == 0.0:
             return False
-        at_left, at_right = self._friction_slope(left), self._friction_slope(right)
-        *_, first = left
-        *_, last = right
-        products = (at_left * first, at_left * last, at_right * first, at_right * last)
-        return max(products) < self._forces.gain or min(products) > self._forces.gain
+        at_left = self.friction_weight * left_force / left_root
+        at_right = self.friction_weight * right_force / right_root
+        products = (
+            at_left * left_direction,
+            at_left * right_direction,
+            at_right * left_direction,
+            at_right * right_direction,
+        )
+        return max(products) < self.gain or min(products) > self.gain
+
+
+_Interval = tuple[Point, Point]
 
 
 def _clusters(intervals: list[_Interval]) -> list[list[Point]]:

@@ -52,19 +52,19 @@ def solve(design: JointDesign, tension_l: float, tension_s: float) -> Equilibriu
     else:
         return Equilibrium(design, Regime.HELD, tension_l, tension_s, root_count=0, iterations=0)
 
-    normal_force = equation.normal_force_at(point)
+    normal_force = equation.total * point[2]
     return Equilibrium(
         design,
         regime,
         tension_l,
         tension_s,
-        root_count=len(brackets),
-        iterations=iterations,
-        bend_angle=-bend_angle if mirrored else bend_angle,
-        pressure=normal_force / design.contact_area,
-        normal_force=normal_force,
-        stable=stable,
-        residual=equation.residual_at(point),
+        len(brackets),
+        iterations,
+        -bend_angle if mirrored else bend_angle,
+        normal_force / design.contact_area,
+        normal_force,
+        stable,
+        equation.residual_at(point),
     )
 
 
