@@ -110,11 +110,12 @@ def test_it_agrees_with_a_fit_of_every_true_sample_beside_the_parameters():
     scale = truth_of(fit)
 
     def residuals(unknowns):
-        values = dataclasses.asdict(TRUTH) | dict(zip(fit, unknowns[:2] * scale, strict=True))
+        values = dict(zip(fit, unknowns[:2] * scale, strict=True))
+        design = dataclasses.replace(TRUTH, **values)
         true = samples[:, :3] + unknowns[2:].reshape(-1, 3) * stddevs
         missing = np.full(len(true), math.nan)
         # So heavily weighted that it is an equation.
-        on_boundary = 1e5 * boundary_distance(values, *true.T, missing, fitted.noise).excess
+        on_boundary = 1e5 * boundary_distance(design, *true.T, missing, fitted.noise).excess
         return np.concatenate([unknowns[2:], on_boundary])
 
     whole = least_squares(residuals, np.concatenate([[1.0, 1.0], np.zeros(45)]), xtol=1e-12)

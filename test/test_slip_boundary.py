@@ -1,6 +1,5 @@
 """`boundary_distance` against the scalar physics, and its noise against finite differences."""
 
-import dataclasses
 import math
 
 import numpy as np
@@ -21,7 +20,7 @@ def distance(design, tension_l, tension_s, bend_angle, pressure=math.nan, noise=
         np.atleast_1d(np.asarray(value, dtype=float))
         for value in (tension_l, tension_s, bend_angle, pressure)
     )
-    return boundary_distance(dataclasses.asdict(design), *arrays, noise)
+    return boundary_distance(design, *arrays, noise)
 
 
 @given(cases(), st.floats(-1.0, 1.0))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import dataclasses
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -55,7 +54,7 @@ def _draw_distances(axes: Axes, calibration: Calibration, recording: Recording) 
     slipping, held = (calibration.roles == role for role in (SLIPPING, HELD))
     pressure = np.full(len(recording), np.nan)
     before = boundary_distance(
-        dataclasses.asdict(calibration.start),
+        calibration.start,
         recording.tension_l,
         recording.tension_s,
         recording.bend_angle,

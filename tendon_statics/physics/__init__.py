@@ -6,7 +6,7 @@ from .admissible import admissible_angles, slip_margin
 from .contact import ContactCoefficients, ContactForces, ForceRemainder, contact_coefficients
 from .design import DesignParameter, JointDesign, design_parameters
 from .equations import residual
-from .equilibrium import Equilibrium, Regime, TensionGradient
+from .equilibrium import Equilibrium, Regime
 from .errors import (
     BendAngleError,
     CalibrationError,
@@ -15,6 +15,7 @@ from .errors import (
     UnreachableError,
 )
 from .inverse import Tensions, tensions_for
+from .sensitivity import TensionGradient
 from .solver import solve
 from .tracker import StickSlipTracker, TrackedState
 

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .contact import ContactForces, ForceRemainder
+from .array_roots import ArraySlipEquation
+from .contact import Contact, ContactForces, ForceRemainder, split_contact
 from .design import JointDesign
-from .equilibrium import Regime, TensionGradient
+from .equilibrium import Regime
 from .errors import TensionError
-from .solver import solve
+from .sensitivity import TensionGradient, derivatives
+from .solver import MAX_TENSION, solve
 
 REGIME_CODES = {regime: code for code, regime in enumerate(Regime)}
 """Regime → its number in `EquilibriumBatch.regime`"""
@@ -20,94 +22,314 @@ REGIME_CODES = {regime: code for code, regime in enumerate(Regime)}
 INVALID = -1
 """The number in `EquilibriumBatch.regime` of a pair for which `solve` raises"""
 
+CHUNK = 8192
+"""Pairs that are worked on at a time, so that the processor's cache holds them"""
+
 _NAMES = np.array([*(regime.value for regime in Regime), 'invalid'])
+
+Floats = NDArray[np.float64]
 
 
 class EquilibriumBatch(NamedTuple):
     """The answers of `solve_batch`: the fields of `Equilibrium` as arrays of one shape.
 
-    What the model does not determine is NaN, or False for the two that are true or false.
+    What the model does not determine is NaN, or False where it would be true or false. Forces and
+    gradients are worked out when they are asked for, and not kept.
     """
 
     design: JointDesign
     regime: NDArray[np.int8]
     """Numbers by `REGIME_CODES`; `INVALID` for a pair for which `solve` raises"""
-    tension_l: NDArray[np.float64]
-    tension_s: NDArray[np.float64]
+    tension_l: Floats
+    """T_l in N, as given: a view where one will do"""
+    tension_s: Floats
+    """T_s in N, likewise"""
     root_count: NDArray[np.uint8]
     iterations: NDArray[np.uint8]
-    bend_angle: NDArray[np.float64]
-    pressure: NDArray[np.float64]
-    normal_force: NDArray[np.float64]
+    """Steps to the root: of Newton's method, or of the bisection where that was needed"""
+    bend_angle: Floats
+    """θ in rad"""
+    normal_force: Floats
+    """N = p C w in N"""
     stable: NDArray[np.bool_]
-    residual: NDArray[np.float64]
-    forces: ContactForces
-    force_remainder: ForceRemainder
-    branch_consistent: NDArray[np.bool_]
-    bend_angle_gradient: TensionGradient
-    pressure_gradient: TensionGradient
+    residual: Floats
+    """g(θ) = N_m − N_f in N"""
 
     @property
     def regime_names(self) -> NDArray[np.str_]:
         """The regimes as text: the values of `Regime`, or ``invalid``."""
-        return _NAMES[self.regime]
+        names: NDArray[np.str_] = _NAMES[self.regime]
+        return names
+
+    @property
+    def pressure(self) -> Floats:
+        """P in Pa."""
+        return self.normal_force / self.design.contact_area
+
+    @property
+    def forces(self) -> ContactForces:
+        """The forces on the joint surface in N."""
+        return ContactForces(*self._evaluated(lambda *chunk: _contact(*chunk).forces, 4))
+
+    @property
+    def force_remainder(self) -> ForceRemainder:
+        """What Eqs. (1) and (2) leave over, one by one, in N."""
+        return ForceRemainder(*self._evaluated(lambda *chunk: _contact(*chunk).remainder, 2))
+
+    @property
+    def branch_consistent(self) -> NDArray[np.bool_]:
+        """Whether μ N sin(β + θ) > W."""
+        flags: NDArray[np.bool_] = self._evaluated(
+            lambda *chunk: (_contact(*chunk).branch_consistent,), 1, bool
+        )[0]
+        return flags
+
+    @property
+    def bend_angle_gradient(self) -> TensionGradient:
+        """∂θ/∂T in rad/N; NaN also where it is infinite."""
+        return TensionGradient(*self._evaluated(lambda *chunk: _gradients(*chunk)[:2], 2))
+
+    @property
+    def pressure_gradient(self) -> TensionGradient:
+        """∂p/∂T in Pa/N; NaN also where it is infinite."""
+        return TensionGradient(*self._evaluated(lambda *chunk: _gradients(*chunk)[2:], 2))
+
+    def bend_angle_stddev(self, tension_stddev: float) -> Floats:
+        """Return the standard deviation of each angle in rad, as `Equilibrium` does."""
+        by_l, by_s = self.bend_angle_gradient
+        return np.hypot(tension_stddev * by_l, tension_stddev * by_s)
+
+    def pressure_stddev(self, tension_stddev: float) -> Floats:
+        """Return the standard deviation of each pressure in Pa."""
+        by_l, by_s = self.pressure_gradient
+        return np.hypot(tension_stddev * by_l, tension_stddev * by_s)
+
+    def _evaluated(
+        self, function: Callable[..., Any], count: int, kind: type = float
+    ) -> NDArray[Any]:
+        """Work out quantities, chunk by chunk, from what is known of each pair."""
+        result = np.empty((count, *self.bend_angle.shape), kind)
+        rows = result.reshape(count, -1)
+        given = (self.tension_l, self.tension_s, self.bend_angle, self.normal_force, self.regime)
+        with np.errstate(all='ignore'):
+            for part, chunk in _chunks(*given):
+                rows[:, part] = function(self.design, *chunk)
+        return result
 
 
 def solve_batch(
     design: JointDesign, tension_l: ArrayLike, tension_s: ArrayLike
 ) -> EquilibriumBatch:
-    """Solve for many pairs of tensions; one answer of `solve` for each.
+    """Solve for many pairs of tensions: what `solve` answers for each, as arrays.
+
+    The angles are those of `solve` to 1e-12 rad as a rule, and to 1e-9 always: each is found
+    within a bracket of 1e-10 rad over which g changes sign. A pair that `solve` would refuse does
+    not stop the others; its regime is `INVALID`.
 
     Parameters
     ----------
     tension_l, tension_s : array_like
-        Cable tensions T_l and T_s in N, of shapes that broadcast.
+        Cable tensions T_l and T_s in N, of shapes that broadcast to one another.
+
+    Raises
+    ------
+    TensionError
+        If the tensions are not numbers, or their shapes do not fit.
     """
-    left, right = np.broadcast_arrays(
-        np.asarray(tension_l, dtype=np.float64), np.asarray(tension_s, dtype=np.float64)
+    left, right = _broadcast(tension_l, tension_s)
+    shape = left.shape
+    results = EquilibriumBatch(
+        design=design,
+        regime=np.full(shape, INVALID, np.int8),
+        tension_l=left,
+        tension_s=right,
+        root_count=np.zeros(shape, np.uint8),
+        iterations=np.zeros(shape, np.uint8),
+        bend_angle=np.full(shape, np.nan),
+        normal_force=np.full(shape, np.nan),
+        stable=np.zeros(shape, np.bool_),
+        residual=np.full(shape, np.nan),
     )
-    rows: list[tuple[Any, ...]] = []
-    for pair in zip(left.flat, right.flat, strict=True):
+    flat = results._replace(**{name: getattr(results, name).reshape(-1) for name in _SOLVED})
+    with np.errstate(all='ignore'):
+        for part, (chunk_l, chunk_s) in _chunks(left, right):
+            _solve_chunk(
+                flat._replace(
+                    tension_l=chunk_l,
+                    tension_s=chunk_s,
+                    **{name: getattr(flat, name)[part] for name in _SOLVED},
+                )
+            )
+    return results
+
+
+_SOLVED = (
+    'regime',
+    'root_count',
+    'iterations',
+    'bend_angle',
+    'normal_force',
+    'stable',
+    'residual',
+)
+
+
+def _broadcast(tension_l: ArrayLike, tension_s: ArrayLike) -> tuple[Floats, Floats]:
+    """Return the tensions as arrays of one shape.
+
+    Raises
+    ------
+    TensionError
+        As `solve_batch` does.
+    """
+    arrays = []
+    for name, values in (('tension_l', tension_l), ('tension_s', tension_s)):
         try:
-            answer = solve(design, *pair)
-        except TensionError:
-            rows.append(
-                (INVALID, 0, 0, *(math.nan,) * 3, False, *(math.nan,) * 7, False, *(math.nan,) * 4)
+            array = np.asarray(values)
+        except ValueError:
+            raise TensionError(f'{name} is no array: its rows differ in length') from None
+        if array.dtype.kind not in 'iuf':
+            raise TensionError(
+                f'{name} has values of type {array.dtype}, real numbers are needed; in N'
             )
-            continue
-        rows.append(
-            (
-                REGIME_CODES[answer.regime],
-                answer.root_count,
-                answer.iterations,
-                answer.bend_angle,
-                answer.pressure,
-                answer.normal_force,
-                bool(answer.stable),
-                answer.residual,
-                *(answer.forces or (math.nan,) * 4),
-                *(answer.force_remainder or (math.nan,) * 2),
-                bool(answer.branch_consistent),
-                *(answer.bend_angle_gradient or (math.nan,) * 2),
-                *(answer.pressure_gradient or (math.nan,) * 2),
-            )
-        )
-    table = np.array(rows, dtype=np.float64).reshape(-1, 19).T.reshape(19, *left.shape)
-    return EquilibriumBatch(
-        design,
-        table[0].astype(np.int8),
-        left,
-        right,
-        table[1].astype(np.uint8),
-        table[2].astype(np.uint8),
-        table[3],
-        table[4],
-        table[5],
-        table[6].astype(bool),
-        table[7],
-        ContactForces(*table[8:12]),
-        ForceRemainder(*table[12:14]),
-        table[14].astype(bool),
-        TensionGradient(*table[15:17]),
-        TensionGradient(*table[17:19]),
+        arrays.append(array.astype(np.float64, copy=False))
+    try:
+        left, right = np.broadcast_arrays(*arrays)
+    except ValueError:
+        raise TensionError(
+            f'tension_l has shape {arrays[0].shape} and tension_s {arrays[1].shape}, '
+            'which do not fit: equal shapes are needed, or ones that NumPy can broadcast'
+        ) from None
+    return left, right
+
+
+def _chunks(*arrays: NDArray[Any]) -> Iterator[tuple[slice, tuple[NDArray[Any], ...]]]:
+    """Walk through arrays of one shape: yield a slice of the flat result, and what is there."""
+    walk = np.nditer(
+        arrays,
+        flags=['external_loop', 'buffered', 'zerosize_ok'],
+        order='C',
+        buffersize=CHUNK,
     )
+    start = 0
+    for chunk in walk if walk.itersize else ():
+        end = start + len(chunk[0])
+        yield slice(start, end), chunk
+        start = end
+
+
+def _solve_chunk(chunk: EquilibriumBatch) -> None:
+    """Fill in the results of one chunk."""
+    design, tension_l, tension_s = chunk.design, chunk.tension_l, chunk.tension_s
+    weak: Any = np.minimum(tension_l, tension_s)
+    strong: Any = np.maximum(tension_l, tension_s)
+    taken = (weak >= 0.0) & (strong <= MAX_TENSION)
+    chunk.regime[taken & (weak == 0.0)] = REGIME_CODES[Regime.SLACK]
+    (taut,) = np.nonzero(taken & (weak > 0.0))
+    weak, strong = weak[taut], strong[taut]
+    equation = ArraySlipEquation(design, weak, strong)
+    light: Any = equation.excess > 0.0
+    taut, equation = taut[light], equation.of(light)
+    stop = design.max_bend_angle
+    brackets = equation.brackets(stop)
+    unresolved = brackets.unresolved
+    at_zero = equation.points_at(equation.geometry.attitude(0.0))
+
+    driven = (brackets.count == 0) & (at_zero[1] > at_zero[2])
+    regimes = np.where(
+        driven, REGIME_CODES[Regime.DRIVEN_TO_STOP], REGIME_CODES[Regime.HELD]
+    ).astype(np.int8)
+    (rooted,) = np.nonzero(brackets.count)
+    regimes[rooted] = REGIME_CODES[Regime.EQUILIBRIUM]
+    chunk.regime[taut] = regimes
+    chunk.root_count[taut] = brackets.count
+
+    at = taut[driven]
+    part = equation.of(driven)
+    _fill(chunk, at, part, part.points_at(equation.geometry.attitude(stop)))
+    chunk.stable[at] = True
+
+    at = taut[rooted]
+    part = equation.of(rooted)
+    roots = part.roots(brackets.low[rooted], brackets.high[rooted])
+    points = part.points(roots.bend_angle)
+    _fill(chunk, at, part, points)
+    chunk.stable[at] = part.slopes(points) < 0.0
+    chunk.iterations[at] = roots.steps
+    unresolved[rooted] |= roots.unresolved
+
+    for index in taut[unresolved]:
+        _solve_one(chunk, index)
+
+
+def _fill(
+    chunk: EquilibriumBatch, at: NDArray[Any], equation: ArraySlipEquation, points: Floats
+) -> None:
+    """Fill in what follows from the angles, which are towards the stronger cable."""
+    angle, moment, force, _, _ = points
+    mirrored = chunk.tension_l[at] > chunk.tension_s[at]
+    chunk.bend_angle[at] = np.where(mirrored, -angle, angle)
+    chunk.normal_force[at] = equation.total * force
+    chunk.residual[at] = equation.total * (moment - force)
+
+
+def _solve_one(chunk: EquilibriumBatch, index: int) -> None:
+    """Fill in the answer of `solve`."""
+    answer = solve(chunk.design, float(chunk.tension_l[index]), float(chunk.tension_s[index]))
+    chunk.regime[index] = REGIME_CODES[answer.regime]
+    for name in _SOLVED[1:]:
+        value = getattr(answer, name)
+        array = getattr(chunk, name)
+        array[index] = value if value is not None else False if array.dtype == bool else np.nan
+
+
+def _contact(
+    design: JointDesign,
+    tension_l: Any,
+    tension_s: Any,
+    bend_angle: Any,
+    normal_force: Any,
+    _regime: Any,
+) -> Contact:
+    """`contact_at` for a chunk."""
+    side = np.where(tension_l > tension_s, -1.0, 1.0)
+    phi = design.contact_centre_angle + side * bend_angle
+    return split_contact(
+        design,
+        tension_l + tension_s,
+        normal_force,
+        side * design.friction_coefficient * normal_force,
+        phi=(side * np.sin(phi), np.cos(phi)),
+        theta=(np.sin(bend_angle), np.cos(bend_angle)),
+    )
+
+
+def _gradients(
+    design: JointDesign,
+    tension_l: Any,
+    tension_s: Any,
+    bend_angle: Any,
+    _normal_force: Any,
+    regime: Any,
+) -> Floats:
+    """`gradients_at_limit` for a chunk: ∂θ/∂T_l, ∂θ/∂T_s, ∂p/∂T_l, ∂p/∂T_s."""
+    mirrored = tension_l > tension_s
+    equation = ArraySlipEquation(
+        design, np.minimum(tension_l, tension_s), np.maximum(tension_l, tension_s)
+    )
+    points = equation.points(np.abs(bend_angle))
+    slope: Any = equation.slopes(points)
+    slope[regime == REGIME_CODES[Regime.DRIVEN_TO_STOP]] = np.inf
+    by_angle: Any = equation.force_slopes(points)
+    by_total: Any = (1.0 - points[2]) / points[3]
+    behind, ahead = derivatives(design, by_total=by_total, by_angle=by_angle, slope=slope)
+    gradients = np.array(
+        [
+            np.where(mirrored, -ahead[0], behind[0]),
+            np.where(mirrored, -behind[0], ahead[0]),
+            np.where(mirrored, ahead[1], behind[1]),
+            np.where(mirrored, behind[1], ahead[1]),
+        ]
+    )
+    gradients[:, ~np.isfinite(gradients).all(axis=0)] = np.nan
+    return gradients

@@ -10,6 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .array_roots import Floats
 from .calibration_result import (
     HELD,
     SLIPPING,
@@ -19,9 +20,9 @@ from .calibration_result import (
 )
 from .calibration_warnings import calibration_warnings
 from .design import DesignParameter, JointDesign, design_parameters
-from .errors import CalibrationError
+from .errors import CalibrationError, DesignError
 from .identification import LOSS_SCALE, identify
-from .slip_boundary import BoundaryDistance, Floats, Noise, boundary_distance
+from .slip_boundary import BoundaryDistance, Noise, boundary_distance
 from .solver import MAX_TENSION
 
 DEFAULT_FIT = ('mass', 'cable_offset', 'friction_coefficient')
@@ -199,10 +200,10 @@ class _Samples:
             roles[holds] = reason
         return roles
 
-    def distance(self, values: dict[str, float], of: NDArray[np.bool_]) -> BoundaryDistance:
+    def distance(self, design: JointDesign, of: NDArray[np.bool_]) -> BoundaryDistance:
         """Distance of some of the samples from the boundary of a design."""
         return boundary_distance(
-            values,
+            design,
             self.tension_l[of],
             self.tension_s[of],
             self.bend_angle[of],
@@ -222,8 +223,7 @@ class _Problem:
         self, design: JointDesign, parameters: list[DesignParameter], samples: _Samples
     ) -> None:
         self._design, self._parameters, self._samples = design, parameters, samples
-        self._values: dict[str, float] = dataclasses.asdict(design)
-        start = np.array([self._values[parameter.name] for parameter in parameters])
+        start = np.array([getattr(design, parameter.name) for parameter in parameters])
         widths = np.array([parameter.maximum - parameter.minimum for parameter in parameters])
         self._scale = np.where(start != 0.0, abs(start), 1e-3 * widths)
         self.start = start / self._scale
@@ -235,15 +235,19 @@ class _Problem:
     def _largest(self, parameter: DesignParameter) -> float:
         """Upper end of a range; of mass and gravity, such that all tensions exceed the weight."""
         other = {'mass': 'gravity', 'gravity': 'mass'}.get(parameter.name)
-        if other is None or self._values[other] == 0.0:
+        factor = 0.0 if other is None else getattr(self._design, other)
+        if factor == 0.0:
             return parameter.maximum
         samples = self._samples
         used = samples.slipping | samples.held
         least = float((samples.tension_l + samples.tension_s)[used].min())
-        return min(parameter.maximum, (1.0 - 1e-6) * least / self._values[other])
+        return min(parameter.maximum, (1.0 - 1e-6) * least / factor)
 
     def residuals(self, scaled: Floats) -> Floats:
-        """Equations of the slipping samples, then what held ones lie beyond the boundary."""
+        """Equations of the slipping samples, then what held ones lie beyond the boundary.
+
+        They are NaN where there is no such design, from which the search turns back.
+        """
         held = self._distance(scaled, self._samples.held).standardised
         return np.concatenate([self._equations(scaled), np.maximum(held, 0.0)])
 
@@ -254,20 +258,37 @@ class _Problem:
         return np.concatenate([distance.standardised, distance.pressure_standardised[measured]])
 
     def _distance(self, scaled: Floats, of: NDArray[np.bool_]) -> BoundaryDistance:
-        return self._samples.distance(self._values | self._named(scaled), of)
+        try:
+            return self._samples.distance(self._design_at(scaled), of)
+        except DesignError:
+            return BoundaryDistance(*(np.full((4, int(of.sum())), math.nan)))
 
-    def _named(self, scaled: Floats) -> dict[str, float]:
-        values = (scaled * self._scale).tolist()
-        return {p.name: value for p, value in zip(self._parameters, values, strict=True)}
+    def _design_at(self, scaled: Floats) -> JointDesign:
+        """Design with the parameters, rounded into their ranges.
+
+        Raises
+        ------
+        DesignError
+            If they do not fit together.
+        """
+        values = {
+            parameter.name: min(max(value, parameter.minimum), parameter.maximum)
+            for parameter, value in zip(
+                self._parameters, (scaled * self._scale).tolist(), strict=True
+            )
+        }
+        return dataclasses.replace(self._design, **values)
 
     def _jacobian(self, scaled: Floats) -> Floats:
         """Derivatives of the equations by the scaled parameters, from central differences."""
         columns = []
         for index, value in enumerate(scaled):
-            step = np.zeros_like(scaled)
-            step[index] = 1e-5 * max(abs(value), 1.0)
-            change = self._equations(scaled + step) - self._equations(scaled - step)
-            columns.append(change / (2.0 * step[index]))
+            ends = np.stack([scaled, scaled])
+            step = 1e-5 * max(abs(value), 1.0)
+            low, high = (bound[index] for bound in self.bounds)
+            ends[:, index] = max(value - step, low), min(value + step, high)
+            change = self._equations(ends[1]) - self._equations(ends[0])
+            columns.append(change / (ends[1, index] - ends[0, index]))
         jacobian: Floats = np.nan_to_num(np.stack(columns, axis=1))
         return jacobian
 
@@ -277,16 +298,11 @@ class _Problem:
         equations = self._equations(scaled)
         identification = identify(self._jacobian(scaled), equations)
         errors = identification.standard_errors * self._scale
-        values = {
-            parameter.name: min(max(value, parameter.minimum), parameter.maximum)
-            for parameter, value in zip(
-                self._parameters, self._named(scaled).values(), strict=True
-            )
-        }
+        design = self._design_at(scaled)
         fitted = tuple(
             FittedParameter(
                 name,
-                values[name],
+                getattr(design, name),
                 getattr(self._design, name),
                 None if math.isnan(error) else float(error),
             )
@@ -299,7 +315,7 @@ class _Problem:
         everywhere = self._distance(scaled, np.full(len(used), True))
         return Calibration(
             start=self._design,
-            design=dataclasses.replace(self._design, **values),
+            design=design,
             parameters=fitted,
             correlation=identification.correlation,
             residuals=residuals,

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from .array_roots import Floats
 from .calibration_result import HELD, FittedParameter, ResidualStatistics
 from .design import DesignParameter
 from .identification import Identification
-from .slip_boundary import Floats
 
 STRONG_CORRELATION = 0.99
 NORMAL_MEDIAN = 0.6745

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .slip_boundary import Floats
+from .array_roots import Floats
 
 LOSS_SCALE = 1.5
 """Distance in units of noise from which on a sample counts less than its square (soft L1)"""

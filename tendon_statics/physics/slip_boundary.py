@@ -15,13 +15,12 @@ with that of e; what q says beyond e is q − (S_eq / S_ee) e with the variance 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from .array_roots import ArraySlipEquation, Floats
+from .design import JointDesign
 
 
 class Noise(NamedTuple):
@@ -49,7 +48,7 @@ class BoundaryDistance(NamedTuple):
 
 
 def boundary_distance(
-    values: Mapping[str, float],
+    design: JointDesign,
     tension_l: Floats,
     tension_s: Floats,
     bend_angle: Floats,
@@ -60,54 +59,39 @@ def boundary_distance(
 
     Parameters
     ----------
-    values : mapping
-        Parameters of a design by name. They may lie outside the ranges of `JointDesign`, for a
-        search; where there is no N_f the result is NaN.
     tension_l, tension_s, bend_angle : ndarray
-        Samples in N and rad.
+        Samples in N and rad. Where the tensions do not exceed the weight the result is NaN.
     pressure : ndarray
         In Pa; NaN where it is not measured.
     """
-    r, friction = values['ball_radius'], values['friction_coefficient']
-    arm = r + values['cable_offset']
-    weight = values['mass'] * values['gravity']
-    start, end = values['contact_start_angle'], values['contact_end_angle']
-    area = 2.0 * r * np.sin(0.5 * (end - start)) * values['contact_width']
-    com = values['com_distance']
-    with np.errstate(invalid='ignore', divide='ignore'):
-        moment = (tension_s - tension_l) * arm + weight * com * np.sin(bend_angle)
+    with np.errstate(all='ignore'):
+        moment = (tension_s - tension_l) * (design.ball_radius + design.cable_offset)
+        moment = moment + design.weight * design.com_distance * np.sin(bend_angle)
         side = np.where(moment < 0.0, -1.0, 1.0)
-        phi = 0.5 * (start + end) + side * bend_angle
-        total = tension_l + tension_s
-        force, root = _force_at_limit(friction, weight, total, np.sin(phi), np.cos(phi))
+        total = np.where(tension_l + tension_s > design.weight, tension_l + tension_s, np.nan)
+        behind: Any = np.where(side > 0.0, tension_l, tension_s)
+        ahead: Any = np.where(side > 0.0, tension_s, tension_l)
+        equation = ArraySlipEquation(design, behind, ahead)
+        _, asked, force, root, direction = equation.points(side * bend_angle)
+        cos_phi = direction * np.cos(bend_angle)
 
-        excess = abs(moment) / (friction * r) - force
-        force_by_total = (total - force) / root
-        force_by_angle = side * friction * weight * force * np.cos(phi) / root
-        lever = side * arm / (friction * r)
-        by_l, by_s = -lever - force_by_total, lever - force_by_total
-        by_angle = side * weight * com * np.cos(bend_angle) / (friction * r) - force_by_angle
+        excess = total * (asked - force)
+        force_by_total = (1.0 - force) / root
+        weight, cable_gain = design.weight, side * design.slip_geometry.cable_gain
+        force_by_angle = side * design.friction_coefficient * weight * force * cos_phi / root
+        by_l, by_s = -cable_gain - force_by_total, cable_gain - force_by_total
+        by_angle = side * design.slip_geometry.weight_gain * np.cos(bend_angle) - force_by_angle
 
         of_tension, of_angle = noise.tension**2, noise.bend_angle**2
         variance = of_tension * (by_l**2 + by_s**2) + of_angle * by_angle**2
         standardised = excess / np.sqrt(variance)
 
+        area = design.contact_area
         covariance = -of_tension * force_by_total * (by_l + by_s)
         covariance -= of_angle * force_by_angle * by_angle
         pressure_variance = 2.0 * of_tension * force_by_total**2 + of_angle * force_by_angle**2
         pressure_variance += (noise.pressure * area) ** 2
-        beyond = pressure * area - force - covariance / variance * excess
+        beyond = pressure * area - total * force - covariance / variance * excess
         pressure_variance -= covariance**2 / variance
         pressure_standardised = beyond / np.sqrt(pressure_variance)
     return BoundaryDistance(excess, standardised, pressure_standardised, side)
-
-
-def _force_at_limit(
-    friction: float, weight: float, total: Floats, sin_phi: Floats, cos_phi: Floats
-) -> tuple[Floats, Floats]:
-    """N_f and R in N, in the forms of `equations` that do not cancel; NaN unless T > W."""
-    product = np.where(total > weight, total**2 - weight**2, np.nan)
-    b = total - friction * weight * sin_phi
-    root = np.sqrt((weight - friction * total * sin_phi) ** 2 + friction**2 * product * cos_phi**2)
-    other = (root - b) / ((friction - 1.0) * (friction + 1.0)) if friction != 1.0 else np.nan
-    return np.where(b > 0.0, product / (b + root), other), root

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics import Equilibrium, JointDesign, StickSlipTracker, TensionError, TrackedState
+from ..physics import JointDesign, StickSlipTracker, TensionError, TrackedState
 from ..physics.batch import solve_batch
 from .recording import Floats, Recording
 
@@ -137,9 +137,9 @@ def _solved(design: JointDesign, recording: Recording, start: int, tension_stdde
     numbers = np.stack(
         [
             answers.bend_angle,
-            tension_stddev * np.hypot(*answers.bend_angle_gradient),
+            answers.bend_angle_stddev(tension_stddev),
             answers.pressure,
-            tension_stddev * np.hypot(*answers.pressure_gradient),
+            answers.pressure_stddev(tension_stddev),
             side * (1.0 + answers.residual / answers.normal_force),
         ]
     )
@@ -167,9 +167,7 @@ def _tracked(
     return np.array(regimes), np.array(rows).reshape(-1, 5).T, np.array(assured)
 
 
-def _estimates(
-    result: Equilibrium | TrackedState, tension_stddev: float
-) -> tuple[float, float, float, float]:
+def _estimates(result: TrackedState, tension_stddev: float) -> tuple[float, float, float, float]:
     return (
         _number(result.bend_angle),
         _number(result.bend_angle_stddev(tension_stddev)),
