@@ -22,9 +22,7 @@ def parameter_rows(calibration: Calibration) -> list[tuple[str, ...]]:
             parameter.name,
             _UNITS[parameter.name],
             f'{parameter.start:.6g}',
-            f'{parameter.value:.6g}',
-            _error(parameter),
-            _interval(parameter),
+            *_told(parameter),
         )
         for parameter in calibration.parameters
     ]
@@ -77,11 +75,9 @@ def calibration_text(calibration: Calibration, name: str) -> str:
     return '\n\n'.join(parts)
 
 
-def _error(parameter: FittedParameter) -> str:
-    error = parameter.standard_error
-    return 'not determined' if error is None else f'{error:.2g}'
-
-
-def _interval(parameter: FittedParameter) -> str:
-    interval = parameter.interval
-    return 'not determined' if interval is None else f'{interval[0]:.6g} to {interval[1]:.6g}'
+def _told(parameter: FittedParameter) -> tuple[str, str, str]:
+    """Value, standard error and interval, as far as the data tell them."""
+    if parameter.standard_error is None or parameter.interval is None:
+        return 'not determined', '', ''
+    low, high = parameter.interval
+    return f'{parameter.value:.6g}', f'{parameter.standard_error:.2g}', f'{low:.6g} to {high:.6g}'
