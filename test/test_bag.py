@@ -194,3 +194,15 @@ def test_a_library_that_is_missing_is_named_with_what_to_install(tmp_path, monke
     monkeypatch.setitem(sys.modules, 'mcap.stream_reader', None)
     with pytest.raises(RecordingError, match='ROS bags need mcap: pip install mcap'):
         load_recording(file)
+
+
+def test_a_library_that_does_not_fit_is_named_with_its_own_reason(tmp_path, monkeypatch):
+    from tendon_statics.recordings import libraries
+
+    def refuse(_module):
+        raise ImportError('it needs\nanother version')
+
+    file = write_bag(tmp_path / 'bag', session())
+    monkeypatch.setattr(libraries, 'import_module', refuse)
+    with pytest.raises(RecordingError, match='cannot be loaded: it needs another version'):
+        load_recording(file)

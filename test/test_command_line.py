@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from designs import PRELIMINARY
+from make_docs import ROOT
 from programs import PROGRAM, assert_refused, run
 
 from tendon_statics import default_design_path, solve
@@ -183,6 +184,30 @@ def test_an_output_that_cannot_be_written_is_an_error_in_one_line():
     assert done.returncode == 2
     assert done.stderr.count('\n') == 1
     assert 'No space left' in done.stderr
+
+
+@pytest.mark.parametrize(
+    ('library', 'arguments'),
+    [
+        ('scipy', ['calibrate', 'config/published_point.csv']),
+        ('scipy', ['report', 'config/published_point.csv', '--output', 'report.html']),
+        ('mcap', ['replay', 'config/recorded_session.mcap']),
+        ('rosbags', ['replay', 'config/recorded_session.mcap']),
+        ('pyarrow', ['sweep', '--points', '3', '--output', 'map.parquet']),
+        ('matplotlib', ['plot', 'residual', '--output', 'figure.svg']),
+    ],
+)
+def test_a_library_that_is_missing_is_named_with_what_to_install(tmp_path, library, arguments):
+    code = (
+        f'import sys; sys.modules[{library!r}] = None\n'
+        'from tendon_statics.command_line.main import main\n'
+        f'sys.exit(main({[str(ROOT / a) if "/" in a else a for a in arguments]!r}))'
+    )
+    done = subprocess.run(
+        [sys.executable, '-c', code], capture_output=True, text=True, check=False, cwd=tmp_path
+    )
+    assert_refused(done, f'pip install {library}')
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_the_version_is_the_packages():

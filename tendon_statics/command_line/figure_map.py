@@ -97,7 +97,13 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
     axes.set_xlabel('tension of cable l, T_l [N]')
     axes.set_ylabel('tension of cable s, T_s [N]')
     if patches:
-        drawing.legend(handles=patches, loc='outside upper center', ncols=2, frameon=False)
+        axes.legend(
+            handles=patches,
+            loc='lower center',
+            bbox_to_anchor=(0.5, 1.0),
+            ncols=2,
+            frameon=False,
+        )
 
 
 def _values(answers: EquilibriumBatch, quantity: str) -> Floats:

@@ -68,7 +68,7 @@ def draw_replay(drawing: Figure, design: JointDesign, replayed: Replay) -> None:
     _draw_angles(of_angle, times, replayed)
     stop = np.degrees(design.max_bend_angle)
     of_angle.set_ylim(-1.35 * stop, 1.35 * stop)
-    of_angle.set_yticks([-stop, 0.0, stop], [f'{-stop:.3g}', '0', f'{stop:.3g}'])
+    of_angle.set_yticks([-stop, 0.0, stop], [f'−{stop:.3g}', '0', f'{stop:.3g}'])
     of_angle.set_ylabel('bend angle θ [°]')
     _legend(of_angle)
 

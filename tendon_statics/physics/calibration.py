@@ -162,6 +162,7 @@ class _Samples:
         count = len(self.tension_l)
         missing = np.full(count, math.nan)
         self.pressure = missing if data.pressure is None else _floats(data.pressure)
+        self.states_are_known = data.state is not None
         state = [SLIPPING] * count if data.state is None else data.state
         self.roles = self._roles(design, np.array(state, dtype=object), noise.bend_angle)
         self.slipping = self.roles == SLIPPING
@@ -322,7 +323,14 @@ class _Problem:
             noise=samples.noise,
             counts=samples.counts,
             warnings=tuple(
-                calibration_warnings(ranges, fitted, identification, residuals, samples.counts)
+                calibration_warnings(
+                    ranges,
+                    fitted,
+                    identification,
+                    residuals,
+                    samples.counts,
+                    states_are_known=samples.states_are_known,
+                )
             ),
             roles=samples.roles,
             distance=BoundaryDistance(*(np.where(used, a, math.nan) for a in everywhere)),

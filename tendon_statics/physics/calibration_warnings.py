@@ -22,6 +22,8 @@ def calibration_warnings(
     identification: Identification,
     residuals: ResidualStatistics,
     counts: dict[str, int],
+    *,
+    states_are_known: bool,
 ) -> list[str]:
     """Say what keeps the values from being used as they are.
 
@@ -56,9 +58,14 @@ def calibration_warnings(
             )
     if residuals.degrees_of_freedom > 0 and residuals.median > 2.0 * NORMAL_MEDIAN:
         times = residuals.median / NORMAL_MEDIAN
+        states = (
+            'some states are wrong'
+            if states_are_known
+            else 'not all samples are slipping, as was taken without a state'
+        )
         found.append(
             f'the distances are {times:.1f} times what the stated noise explains: '
-            'the noise is larger, the states are wrong, or the model does not fit'
+            f'the noise is larger, {states}, or the model does not fit'
         )
     if residuals.held_violations:
         found.append(
