@@ -46,7 +46,8 @@ def identify(jacobian: Floats, residuals: Floats) -> Identification:
     count, width = jacobian.shape
     lengths = np.linalg.norm(jacobian, axis=0)
     lengths[lengths == 0.0] = 1.0
-    _, singular, rows = np.linalg.svd(jacobian / lengths)
+    # The triangle of a QR decomposition has the same singular values, however many the equations.
+    _, singular, rows = np.linalg.svd(np.linalg.qr(jacobian / lengths, mode='r'))
     singular = np.concatenate([singular, np.zeros(width - len(singular))])
     known = singular > RANK_TOLERANCE * max(singular[0], 1.0)
     null = rows[~known] / lengths

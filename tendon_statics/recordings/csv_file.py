@@ -61,4 +61,5 @@ def _number(fields: list[str], column: Column) -> float:
 
 
 def _fields(line: str) -> list[str]:
-    return [field.strip() for field in next(csv.reader([line]))]
+    fields = next(csv.reader([line])) if '"' in line else line.split(',')
+    return [field.strip() for field in fields]
