@@ -121,7 +121,7 @@ class ArraySlipEquation(NormalForces):
         count, low, high = np.zeros(size, np.int64), np.full(size, np.inf), np.full(size, np.inf)
         knots = [self.points_at(knot) for knot in self.geometry.knots(0.0, stop)]
         unresolved = knots[0][1] == knots[0][2]
-        determined = np.maximum(np.abs(self.gain), self.friction_weight) >= NEGLIGIBLE_WEIGHT
+        determined = self.geometry.weight_influence >= NEGLIGIBLE_WEIGHT * self.total
         open_at = [np.flatnonzero(_may_vanish(*ends) & determined) for ends in pairwise(knots)]
         index = np.concatenate(open_at)
         left, right = (

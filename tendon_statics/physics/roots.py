@@ -65,7 +65,7 @@ class SlipEquation(NormalForces):
         low, high : float
             Angles in rad, within ±π/2.
         """
-        if max(abs(self.gain), self.friction_weight) < NEGLIGIBLE_WEIGHT:
+        if self.geometry.weight_influence < NEGLIGIBLE_WEIGHT * self.total:
             return []
         ends = [self.point_at(knot) for knot in self.geometry.knots(low, high)]
         found = [(low, low)] if ends[0][1] == ends[0][2] else []

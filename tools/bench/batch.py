@@ -56,7 +56,7 @@ def mixed_pairs(design: JointDesign, count: int) -> tuple[np.ndarray, np.ndarray
 
 
 def all_fields(batch: EquilibriumBatch) -> list[np.ndarray]:
-    """Ask for all fields, those worked out on demand included; all but the first four as numbers."""
+    """Ask for all fields, those worked out on demand included; the first four are no numbers."""
     return [
         *(batch.regime, batch.root_count, batch.stable, batch.branch_consistent),
         *(batch.bend_angle, batch.pressure, batch.normal_force, batch.residual),
