@@ -27,6 +27,10 @@ demo: setup ## Drive the estimator node over real ROS 2 and print what it publis
 test: setup ## Run all tests (choose with ARGS, say ARGS='-k node')
 	@$(run) pytest $(ARGS)
 
+.PHONY: bench
+bench: setup ## Measure the speed beside NumPy, C and a bare relay; table and build/bench.json
+	@$(run) cd tools && python -m bench --json ../build/bench.json
+
 .PHONY: lint
 lint: .venv/.complete ## Check style and types
 	@$(run) ruff check . && ruff format --check . && mypy

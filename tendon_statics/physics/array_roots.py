@@ -36,10 +36,12 @@ Points = NDArray[np.float64]
 class Brackets(NamedTuple):
     """What is known of the roots of each pair."""
 
-    count: NDArray[np.int64]
+    root_count: NDArray[np.int64]
     low: Floats
     """Lower end of the bracket of the root nearest to 0; infinite where there is none"""
     high: Floats
+    slips_at_zero: Flags
+    """Whether g(0) > 0"""
     unresolved: Flags
 
 
@@ -103,18 +105,15 @@ class ArraySlipEquation(NormalForces):
             np.divide(root - b, self.geometry.friction_excess, out=points[2], where=b <= 0.0)
         return points
 
-    def force_slopes(self, points: Points) -> Floats:
-        """∂N_f/∂θ in N/rad; not finite where R = 0."""
+    def slopes(self, points: Points) -> tuple[Floats, Floats]:
+        """∂N_m/∂θ and ∂N_f/∂θ in N/rad; the latter not finite where R = 0."""
         angle, _, force, root, direction = points
-        slopes: Floats = self.total * self.friction_weight * force / root
-        slopes *= np.cos(angle) * direction
-        return slopes
-
-    def slopes(self, points: Points) -> Floats:
-        """∂g/∂θ in N/rad; not finite where R = 0."""
-        slopes: Floats = self.total * self.gain * np.cos(points[0])
-        slopes -= self.force_slopes(points)
-        return slopes
+        cosine = np.cos(angle)
+        of_force = self.total * self.friction_weight * force / root
+        of_force *= direction
+        of_force *= cosine
+        cosine *= self.geometry.weight_gain
+        return cosine, of_force
 
     def brackets(self, stop: float) -> Brackets:
         """Bracket the roots between 0 and the stop."""
@@ -122,13 +121,11 @@ class ArraySlipEquation(NormalForces):
         count, low, high = np.zeros(size, np.int64), np.full(size, np.inf), np.full(size, np.inf)
         knots = [self.points_at(knot) for knot in self.geometry.knots(0.0, stop)]
         unresolved = knots[0][1] == knots[0][2]
-        determined = np.maximum(np.abs(self.gain), self.friction_weight) >= NEGLIGIBLE_WEIGHT
-        open_at = [_may_vanish(*ends) & determined for ends in pairwise(knots)]
-        index = np.concatenate([np.flatnonzero(flags) for flags in open_at])
+        determined = self.geometry.weight_influence >= NEGLIGIBLE_WEIGHT * self.total
+        open_at = [np.flatnonzero(_may_vanish(*ends) & determined) for ends in pairwise(knots)]
+        index = np.concatenate(open_at)
         left, right = (
-            np.concatenate(
-                [ends[:, flags] for ends, flags in zip(side, open_at, strict=True)], axis=1
-            )
+            np.hstack([ends.take(at, axis=1) for ends, at in zip(side, open_at, strict=True)])
             for side in (knots[:-1], knots[1:])
         )
         for _ in range(CUTS):
@@ -148,7 +145,7 @@ class ArraySlipEquation(NormalForces):
             still_open = _may_vanish(left, right)
             index, left, right = index[still_open], left[:, still_open], right[:, still_open]
         unresolved[index] = True
-        return Brackets(count, low, high, unresolved)
+        return Brackets(count, low, high, knots[0][1] > knots[0][2], unresolved)
 
     def roots(self, low: Floats, high: Floats) -> Roots:
         """Find the root in each bracket, and prove it as the bisection does.

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+import dataclasses
+from collections.abc import Iterator
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,7 +24,7 @@ REGIME_CODES = {regime: code for code, regime in enumerate(Regime)}
 INVALID = -1
 """The number in `EquilibriumBatch.regime` of a pair for which `solve` raises"""
 
-CHUNK = 8192
+CHUNK = 16384
 """Pairs that are worked on at a time, so that the processor's cache holds them"""
 
 _NAMES = np.array([*(regime.value for regime in Regime), 'invalid'])
@@ -30,11 +32,12 @@ _NAMES = np.array([*(regime.value for regime in Regime), 'invalid'])
 Floats = NDArray[np.float64]
 
 
-class EquilibriumBatch(NamedTuple):
+@dataclasses.dataclass(frozen=True, eq=False)
+class EquilibriumBatch:
     """The answers of `solve_batch`: the fields of `Equilibrium` as arrays of one shape.
 
-    What the model does not determine is NaN, or False where it would be true or false. Forces and
-    gradients are worked out when they are asked for, and not kept.
+    What the model does not determine is NaN, or False where it would be true or false. The
+    pressure, the forces and the gradients are worked out, and then kept, when they are asked for.
     """
 
     design: JointDesign
@@ -61,7 +64,7 @@ class EquilibriumBatch(NamedTuple):
         names: NDArray[np.str_] = _NAMES[self.regime]
         return names
 
-    @property
+    @cached_property
     def pressure(self) -> Floats:
         """P in Pa."""
         return self.normal_force / self.design.contact_area
@@ -69,52 +72,66 @@ class EquilibriumBatch(NamedTuple):
     @property
     def forces(self) -> ContactForces:
         """The forces on the joint surface in N."""
-        return ContactForces(*self._evaluated(lambda *chunk: _contact(*chunk).forces, 4))
+        return self._contact.forces
 
     @property
     def force_remainder(self) -> ForceRemainder:
         """What Eqs. (1) and (2) leave over, one by one, in N."""
-        return ForceRemainder(*self._evaluated(lambda *chunk: _contact(*chunk).remainder, 2))
+        return self._contact.remainder
 
     @property
     def branch_consistent(self) -> NDArray[np.bool_]:
         """Whether μ N sin(β + θ) > W."""
-        flags: NDArray[np.bool_] = self._evaluated(
-            lambda *chunk: (_contact(*chunk).branch_consistent,), 1, bool
-        )[0]
-        return flags
+        flags: Any = self._contact.branch_consistent
+        return flags  # type: ignore[no-any-return]
 
     @property
     def bend_angle_gradient(self) -> TensionGradient:
         """∂θ/∂T in rad/N; NaN also where it is infinite."""
-        return TensionGradient(*self._evaluated(lambda *chunk: _gradients(*chunk)[:2], 2))
+        return self._gradients[0]
 
     @property
     def pressure_gradient(self) -> TensionGradient:
         """∂p/∂T in Pa/N; NaN also where it is infinite."""
-        return TensionGradient(*self._evaluated(lambda *chunk: _gradients(*chunk)[2:], 2))
+        return self._gradients[1]
 
     def bend_angle_stddev(self, tension_stddev: float) -> Floats:
         """Return the standard deviation of each angle in rad, as `Equilibrium` does."""
         by_l, by_s = self.bend_angle_gradient
-        return np.hypot(tension_stddev * by_l, tension_stddev * by_s)
+        deviation: Floats = tension_stddev * np.hypot(by_l, by_s)
+        return deviation
 
     def pressure_stddev(self, tension_stddev: float) -> Floats:
         """Return the standard deviation of each pressure in Pa."""
         by_l, by_s = self.pressure_gradient
-        return np.hypot(tension_stddev * by_l, tension_stddev * by_s)
+        deviation: Floats = tension_stddev * np.hypot(by_l, by_s)
+        return deviation
 
-    def _evaluated(
-        self, function: Callable[..., Any], count: int, kind: type = float
-    ) -> NDArray[Any]:
-        """Work out quantities, chunk by chunk, from what is known of each pair."""
-        result = np.empty((count, *self.bend_angle.shape), kind)
-        rows = result.reshape(count, -1)
-        given = (self.tension_l, self.tension_s, self.bend_angle, self.normal_force, self.regime)
+    @cached_property
+    def _contact(self) -> Contact:
+        shape = self.bend_angle.shape
+        numbers: Any = np.empty((6, *shape))
+        consistent: Any = np.empty(shape, np.bool_)
+        rows, flags = numbers.reshape(6, -1), consistent.reshape(-1)
         with np.errstate(all='ignore'):
-            for part, chunk in _chunks(*given):
-                rows[:, part] = function(self.design, *chunk)
-        return result
+            for part, chunk in _chunks(*self._tensions, self.bend_angle, self.normal_force):
+                contact = _contact_of(self.design, *chunk)
+                rows[:, part] = (*contact.forces, *contact.remainder)
+                flags[part] = contact.branch_consistent
+        return Contact(ContactForces(*numbers[:4]), ForceRemainder(*numbers[4:]), consistent)
+
+    @cached_property
+    def _gradients(self) -> tuple[TensionGradient, TensionGradient]:
+        numbers: Any = np.empty((4, *self.bend_angle.shape))
+        rows = numbers.reshape(4, -1)
+        with np.errstate(all='ignore'):
+            for part, chunk in _chunks(*self._tensions, self.bend_angle, self.regime):
+                rows[:, part] = _gradients_of(self.design, *chunk)
+        return TensionGradient(*numbers[:2]), TensionGradient(*numbers[2:])
+
+    @property
+    def _tensions(self) -> tuple[Floats, Floats]:
+        return self.tension_l, self.tension_s
 
 
 def solve_batch(
@@ -150,16 +167,11 @@ def solve_batch(
         stable=np.zeros(shape, np.bool_),
         residual=np.full(shape, np.nan),
     )
-    flat = results._replace(**{name: getattr(results, name).reshape(-1) for name in _SOLVED})
+    flat = {name: getattr(results, name).reshape(-1) for name in _SOLVED}
     with np.errstate(all='ignore'):
         for part, (chunk_l, chunk_s) in _chunks(left, right):
-            _solve_chunk(
-                flat._replace(
-                    tension_l=chunk_l,
-                    tension_s=chunk_s,
-                    **{name: getattr(flat, name)[part] for name in _SOLVED},
-                )
-            )
+            rows = {name: array[part] for name, array in flat.items()}
+            _solve_chunk(EquilibriumBatch(design, tension_l=chunk_l, tension_s=chunk_s, **rows))
     return results
 
 
@@ -229,23 +241,23 @@ def _solve_chunk(chunk: EquilibriumBatch) -> None:
     weak, strong = weak[taut], strong[taut]
     equation = ArraySlipEquation(design, weak, strong)
     light: Any = equation.excess > 0.0
-    taut, equation = taut[light], equation.of(light)
+    if not light.all():
+        taut, equation = taut[light], equation.of(light)
     stop = design.max_bend_angle
     brackets = equation.brackets(stop)
     unresolved = brackets.unresolved
-    at_zero = equation.points_at(equation.geometry.attitude(0.0))
 
-    driven = (brackets.count == 0) & (at_zero[1] > at_zero[2])
+    driven = (brackets.root_count == 0) & brackets.slips_at_zero
     regimes = np.where(
         driven, REGIME_CODES[Regime.DRIVEN_TO_STOP], REGIME_CODES[Regime.HELD]
     ).astype(np.int8)
-    (rooted,) = np.nonzero(brackets.count)
+    (rooted,) = np.nonzero(brackets.root_count)
     regimes[rooted] = REGIME_CODES[Regime.EQUILIBRIUM]
     chunk.regime[taut] = regimes
-    chunk.root_count[taut] = brackets.count
+    chunk.root_count[taut] = brackets.root_count
 
     at = taut[driven]
-    part = equation.of(driven)
+    part = equation.of(np.flatnonzero(driven))
     _fill(chunk, at, part, part.points_at(equation.geometry.attitude(stop)))
     chunk.stable[at] = True
 
@@ -254,7 +266,8 @@ def _solve_chunk(chunk: EquilibriumBatch) -> None:
     roots = part.roots(brackets.low[rooted], brackets.high[rooted])
     points = part.points(roots.bend_angle)
     _fill(chunk, at, part, points)
-    chunk.stable[at] = part.slopes(points) < 0.0
+    of_moment, of_force = part.slopes(points)
+    chunk.stable[at] = of_moment < of_force
     chunk.iterations[at] = roots.steps
     unresolved[rooted] |= roots.unresolved
 
@@ -283,46 +296,41 @@ def _solve_one(chunk: EquilibriumBatch, index: int) -> None:
         array[index] = value if value is not None else False if array.dtype == bool else np.nan
 
 
-def _contact(
-    design: JointDesign,
-    tension_l: Any,
-    tension_s: Any,
-    bend_angle: Any,
-    normal_force: Any,
-    _regime: Any,
+def _contact_of(
+    design: JointDesign, tension_l: Any, tension_s: Any, bend_angle: Any, normal_force: Any
 ) -> Contact:
     """`contact_at` for a chunk."""
+    geometry = design.slip_geometry
     side = np.where(tension_l > tension_s, -1.0, 1.0)
-    phi = design.contact_centre_angle + side * bend_angle
+    sine, cosine = np.sin(bend_angle), np.cos(bend_angle)
+    # Of φ, the sine with the sign of the side.
+    sin_phi = geometry.sine * side * cosine + geometry.cosine * sine
+    cos_phi = geometry.cosine * cosine - geometry.sine * side * sine
     return split_contact(
         design,
         tension_l + tension_s,
         normal_force,
-        side * design.friction_coefficient * normal_force,
-        phi=(side * np.sin(phi), np.cos(phi)),
-        theta=(np.sin(bend_angle), np.cos(bend_angle)),
+        side * (design.friction_coefficient * normal_force),
+        phi=(sin_phi, cos_phi),
+        theta=(sine, cosine),
     )
 
 
-def _gradients(
-    design: JointDesign,
-    tension_l: Any,
-    tension_s: Any,
-    bend_angle: Any,
-    _normal_force: Any,
-    regime: Any,
+def _gradients_of(
+    design: JointDesign, tension_l: Any, tension_s: Any, bend_angle: Any, regime: Any
 ) -> Floats:
     """`gradients_at_limit` for a chunk: ∂θ/∂T_l, ∂θ/∂T_s, ∂p/∂T_l, ∂p/∂T_s."""
-    mirrored = tension_l > tension_s
     equation = ArraySlipEquation(
         design, np.minimum(tension_l, tension_s), np.maximum(tension_l, tension_s)
     )
     points = equation.points(np.abs(bend_angle))
-    slope: Any = equation.slopes(points)
+    of_moment, of_force = equation.slopes(points)
+    slope: Any = of_moment - of_force
     slope[regime == REGIME_CODES[Regime.DRIVEN_TO_STOP]] = np.inf
-    by_angle: Any = equation.force_slopes(points)
     by_total: Any = (1.0 - points[2]) / points[3]
+    by_angle: Any = of_force
     behind, ahead = derivatives(design, by_total=by_total, by_angle=by_angle, slope=slope)
+    mirrored = tension_l > tension_s
     gradients = np.array(
         [
             np.where(mirrored, -ahead[0], behind[0]),

@@ -127,11 +127,12 @@ def normal_force_ratios(
 
 def weight_excess(design: JointDesign, tension_l: float, tension_s: float) -> float:
     """T_l + T_s − W in N, without loss of digits where the tensions hardly exceed the weight."""
-    excess = tension_l + tension_s - design.weight
-    if excess > 0.01 * design.weight:
+    weight = design.weight
+    excess = tension_l + tension_s - weight
+    if excess > 0.01 * weight:
         return excess
-    weight = Fraction(design.mass) * Fraction(design.gravity)
-    return float(Fraction(tension_l) + Fraction(tension_s) - weight)
+    exact_weight = Fraction(design.mass) * Fraction(design.gravity)
+    return float(Fraction(tension_l) + Fraction(tension_s) - exact_weight)
 
 
 def residual(design: JointDesign, tension_l: float, tension_s: float, bend_angle: float) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from enum import Enum
 from typing import Any, NamedTuple
 
@@ -31,9 +30,9 @@ class Regime(str, Enum):
         return self.value
 
 
-def plain_fields(result: Any, names: Iterable[str]) -> dict[str, Any]:
-    """Return attributes by name, ready for JSON: nested as dicts, enums as values."""
-    return {name: _plain(getattr(result, name)) for name in names}
+def plain(fields: dict[str, Any]) -> dict[str, Any]:
+    """Return fields ready for JSON: nested as dicts, enums as values."""
+    return {name: _plain(value) for name, value in fields.items()}
 
 
 def _plain(value: Any) -> Any:
@@ -114,8 +113,17 @@ class Equilibrium(NamedTuple):
         return stddev_of(self.pressure_gradient, tension_stddev)
 
     def as_dict(self) -> dict[str, Any]:
-        """Return all but the design by name, ready for JSON: nested as dicts, None as it is."""
-        return plain_fields(self, RESULTS)
+        """Return all but the design by name, ready for JSON: nested as dicts."""
+        forces, remainder, consistent = self._contact or (None, None, None)
+        angle_gradient, pressure_gradient = self._gradients
+        fields = self._asdict()
+        del fields['design']
+        fields['forces'] = forces
+        fields['force_remainder'] = remainder
+        fields['branch_consistent'] = consistent
+        fields['bend_angle_gradient'] = angle_gradient
+        fields['pressure_gradient'] = pressure_gradient
+        return plain(fields)
 
     @property
     def _side(self) -> float:
@@ -142,14 +150,3 @@ class Equilibrium(NamedTuple):
             self._side,
             at_stop=self.regime is Regime.DRIVEN_TO_STOP,
         )
-
-
-RESULTS = (
-    *(name for name in Equilibrium._fields if name != 'design'),
-    'forces',
-    'force_remainder',
-    'branch_consistent',
-    'bend_angle_gradient',
-    'pressure_gradient',
-)
-"""The names in `Equilibrium.as_dict`"""

@@ -23,6 +23,8 @@ class SlipGeometry:
         μ² − 1.
     cable_gain, weight_gain : float
         (r + δ) / (μ r) and W l / (μ r) in N: the slopes of N_m by ΔT and by sin θ.
+    weight_influence : float
+        The larger of |W l| / (μ r) and μ W in N: as much as the weight moves g at the most.
     sine, cosine : float
         sin β and cos β.
     """
@@ -37,6 +39,7 @@ class SlipGeometry:
         'sine',
         'weight',
         'weight_gain',
+        'weight_influence',
     )
 
     def __init__(self, design: JointDesign) -> None:
@@ -47,6 +50,7 @@ class SlipGeometry:
         self.weight = design.weight
         self.cable_gain = (design.ball_radius + design.cable_offset) / resisting_arm
         self.weight_gain = design.weight * design.com_distance / resisting_arm
+        self.weight_influence = max(abs(self.weight_gain), friction * self.weight)
         self.centre_angle = design.contact_centre_angle
         self.sine = math.sin(design.contact_centre_angle)
         self.cosine = math.cos(design.contact_centre_angle)

@@ -46,7 +46,7 @@ class SlipEquation(NormalForces):
 
     def slope_at(self, point: Point) -> float:
         """∂g/∂θ in N/rad; not finite where R = 0."""
-        return self.total * self.gain * math.cos(point[0]) - self.force_slope_at(point)
+        return self.geometry.weight_gain * math.cos(point[0]) - self.force_slope_at(point)
 
     def force_slope_at(self, point: Point) -> float:
         """∂N_f/∂θ = μ W cos φ N_f / R in N/rad; not finite where R = 0."""
@@ -65,7 +65,7 @@ class SlipEquation(NormalForces):
         low, high : float
             Angles in rad, within ±π/2.
         """
-        if max(abs(self.gain), self.friction_weight) < NEGLIGIBLE_WEIGHT:
+        if self.geometry.weight_influence < NEGLIGIBLE_WEIGHT * self.total:
             return []
         ends = [self.point_at(knot) for knot in self.geometry.knots(low, high)]
         found = [(low, low)] if ends[0][1] == ends[0][2] else []
@@ -87,8 +87,9 @@ class SlipEquation(NormalForces):
                     cut = self.point(0.5 * (left[0] + right[0]))
                     pending += [(left, cut), (cut, right)]
                     cuts += 1
-        for cluster in _clusters(unresolved):
-            found += _brackets_in(cluster)
+        if unresolved:
+            for cluster in _clusters(unresolved):
+                found += _brackets_in(cluster)
         found.sort()
         return found
 
@@ -100,14 +101,19 @@ class SlipEquation(NormalForces):
         root is where the chord over the last bracket is zero, which makes it as exact as g.
         """
         last_low, last_high, iterations = self._bisect_quartic(low, high)
-        at_low, at_high = self.residual(last_low), self.residual(last_high)
+        at_low, at_high = self._ratio(last_low), self._ratio(last_high)
         if at_low * at_high > 0.0:
             last_low, last_high, iterations = self._bisect_residual(low, high)
-            at_low, at_high = self.residual(last_low), self.residual(last_high)
+            at_low, at_high = self._ratio(last_low), self._ratio(last_high)
         if at_low == at_high:
             return last_high, iterations
         root = last_high - at_high * (last_high - last_low) / (at_high - at_low)
         return min(max(root, last_low), last_high), iterations
+
+    def _ratio(self, bend_angle: float) -> float:
+        """Return g / T at an angle in rad."""
+        _, moment, force, _, _ = self.point_at(self.geometry.attitude(bend_angle))
+        return moment - force
 
     def _bisect_quartic(self, low: float, high: float) -> tuple[float, float, int]:
         """Return the last bracket and the halvings; the innermost loop, with no call in it."""
@@ -129,11 +135,11 @@ class SlipEquation(NormalForces):
 
     def _bisect_residual(self, low: float, high: float) -> tuple[float, float, int]:
         # The sign at `low`; at `high` g may be zero.
-        rising = self.residual(low) < 0.0
+        rising = self._ratio(low) < 0.0
         iterations = 0
         while high - low > BEND_ANGLE_TOLERANCE:
             middle = 0.5 * (low + high)
-            at_middle = self.residual(middle)
+            at_middle = self._ratio(middle)
             if (at_middle < 0.0) if rising else (at_middle > 0.0):
                 low = middle
             else:

@@ -9,7 +9,7 @@ from .admissible import admissible_angles, check_bend_angle, margin_at
 from .contact import ContactForces, ForceRemainder, contact_at
 from .design import JointDesign
 from .equations import normal_force_ratios
-from .equilibrium import Regime, plain_fields
+from .equilibrium import Regime, plain
 from .sensitivity import TensionGradient, gradients_at_limit, stddev_of
 from .solver import check_tensions
 
@@ -65,7 +65,7 @@ class TrackedState(NamedTuple):
 
     def as_dict(self) -> dict[str, Any]:
         """Return the fields by name, ready for JSON: nested as dicts, undetermined as None."""
-        return plain_fields(self, self._fields)
+        return plain(self._asdict())
 
 
 class StickSlipTracker:
