@@ -34,6 +34,10 @@ MINUTES ?= 5
 soak: setup ## Stream faulty tensions at the estimator and balance the books (MINUTES=5)
 	@$(run) python tools/soak.py --minutes $(MINUTES)
 
+.PHONY: bench
+bench: setup ## Measure the speed beside NumPy, C and a bare relay; table and build/bench.json
+	@$(run) cd tools && python -m bench --json ../build/bench.json
+
 .PHONY: lint
 lint: .venv/.complete ## Check style and types
 	@$(run) ruff check . && ruff format --check . && mypy

@@ -1,7 +1,11 @@
 """Bend angle and joint pressure of a tendon-driven unit from its cable tensions."""
 
-from .design_file import default_design_path, load_design
+from typing import TYPE_CHECKING, Any
+
+from . import physics
+from .design_file import default_design_path, load_design, save_design
 from .physics import (
+    CalibrationError,
     DesignError,
     Equilibrium,
     JointDesign,
@@ -9,14 +13,43 @@ from .physics import (
     TensionError,
     solve,
 )
+from .recordings.errors import RecordingError
+
+if TYPE_CHECKING:
+    from .physics import Calibration, EquilibriumBatch, calibrate, solve_batch
+    from .recordings.load import load_recording
+    from .recordings.recording import Recording
 
 __all__ = [
+    'Calibration',
+    'CalibrationError',
     'DesignError',
     'Equilibrium',
+    'EquilibriumBatch',
     'JointDesign',
+    'Recording',
+    'RecordingError',
     'Regime',
     'TensionError',
+    'calibrate',
     'default_design_path',
     'load_design',
+    'load_recording',
+    'save_design',
     'solve',
+    'solve_batch',
 ]
+
+
+def __getattr__(name: str) -> Any:
+    if name in ('Calibration', 'EquilibriumBatch', 'calibrate', 'solve_batch'):
+        return getattr(physics, name)
+    if name == 'load_recording':
+        from .recordings.load import load_recording
+
+        return load_recording
+    if name == 'Recording':
+        from .recordings.recording import Recording
+
+        return Recording
+    raise AttributeError(f'module {__name__!r} has no attribute {name!r}')

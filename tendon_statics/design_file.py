@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from .installed_files import installed_config
-from .physics.design import JointDesign
+from .output_file import output_file
+from .physics.design import JointDesign, design_parameters
 from .physics.errors import DesignError
 from .yaml_file import YamlFileError, read_yaml
 
@@ -40,6 +41,31 @@ def load_design(path: str | Path) -> JointDesign:
     except DesignError as error:
         key = _PREFIX + error.key if error.key else ''
         raise DesignError(f'{path}: {"design." if error.key else ""}{error}', key=key) from None
+
+
+def save_design(path: str | Path, design: JointDesign, comment: str = '') -> None:
+    """Write a design to a ROS parameter file that `load_design` and the node take.
+
+    The numbers are written with all their digits.
+
+    Parameters
+    ----------
+    comment : str
+        Text at the beginning of the file.
+
+    Raises
+    ------
+    OutputError
+        If the file cannot be written; what was there then stays.
+    """
+    lines = [f'# {line}'.rstrip() for line in comment.splitlines()]
+    lines += ['/**:', '  ros__parameters:', '    design:']
+    for parameter in design_parameters():
+        entry = f'{parameter.name}: {getattr(design, parameter.name)!r}'
+        unit = parameter.unit or '1'
+        lines.append(f'      {entry:<44}  # [{unit}] {parameter.symbol}, {parameter.description}')
+    with output_file(Path(path)) as temporary:
+        temporary.write_text('\n'.join(lines) + '\n', encoding='utf-8')
 
 
 def default_design_path() -> Path:

@@ -12,7 +12,8 @@ from .design_file import load_design
 from .node.tension_kinds import TENSION_SOURCES
 from .physics.design import JointDesign
 from .physics.errors import DesignError
-from .tension_file import TensionFileError, load_tensions
+from .recordings.errors import RecordingError
+from .recordings.load import load_recording
 from .yaml_file import YamlFileError, read_yaml
 
 
@@ -172,8 +173,8 @@ def _tension_source(value: object, _folder: Path) -> str:
 def _recording(value: object, folder: Path) -> Path:
     path = _path(value, folder)
     try:
-        load_tensions(path)
-    except TensionFileError as error:
+        load_recording(path).whole()
+    except RecordingError as error:
         raise ValueError(str(error)) from None
     return path
 

@@ -3,9 +3,12 @@
 from pathlib import Path
 
 import pytest
-from designs import PRELIMINARY
+from designs import PRELIMINARY, random_design
+from hypothesis import given
+from hypothesis import strategies as st
 
-from tendon_statics import DesignError, default_design_path, load_design
+from tendon_statics import DesignError, default_design_path, load_design, save_design
+from tendon_statics.output_file import OutputError
 from tendon_statics.physics import paper
 
 TEXT = default_design_path().read_text(encoding='utf-8')
@@ -130,3 +133,17 @@ def test_errors_name_file_key_value_and_what_is_allowed(tmp_path, text, named):
 def test_a_file_that_cannot_be_read_is_named(tmp_path, name):
     with pytest.raises(DesignError, match='cannot be read'):
         load_design(tmp_path / name)
+
+
+@given(st.randoms(use_true_random=False))
+def test_a_saved_design_comes_back_to_the_last_digit(tmp_path_factory, source):
+    path = tmp_path_factory.mktemp('saved') / 'unit.yaml'
+    design = random_design(source)
+    save_design(path, design, 'Fitted to: a recording\n\nwith "marks" # of YAML')
+    assert load_design(path) == design
+
+
+def test_a_design_that_cannot_be_saved_leaves_nothing(tmp_path):
+    with pytest.raises(OutputError, match='cannot be written'):
+        save_design(tmp_path / 'no' / 'unit.yaml', PRELIMINARY)
+    assert list(tmp_path.iterdir()) == []

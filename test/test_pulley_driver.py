@@ -22,9 +22,9 @@ from tendon_statics.node.faults import (
     FaultMaker,
     FaultSettings,
 )
-from tendon_statics.tension_file import load_tensions
+from tendon_statics.recordings.load import load_recording
 
-ROWS = [row[:2] for row in load_tensions(installed_config('demo_tensions.csv'))]
+ROWS = load_recording(installed_config('demo_tensions.csv')).tensions()
 TOPICS = {
     'array': {'tensions': Float64MultiArray},
     'joint_state': {'tensions': JointState},

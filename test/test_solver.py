@@ -199,7 +199,9 @@ def test_sensitivity_of_the_published_case():
 def test_what_is_not_determined_is_none():
     for tensions, regime in (((1.0, 1.5), Regime.HELD), ((0.0, 2.0), Regime.SLACK)):
         equilibrium = solve(PRELIMINARY, *tensions)
-        assert equilibrium == Equilibrium(regime, *tensions, root_count=0, iterations=0)
+        assert equilibrium == Equilibrium(
+            PRELIMINARY, regime, *tensions, root_count=0, iterations=0
+        )
         assert equilibrium.bend_angle_stddev(0.01) is None
         assert equilibrium.pressure_stddev(0.01) is None
 

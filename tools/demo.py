@@ -18,7 +18,7 @@ from tendon_statics_interfaces.msg import Estimate
 from tendon_statics.command_line.tables import markdown_table
 from tendon_statics.installed_files import installed_config
 from tendon_statics.physics import paper
-from tendon_statics.tension_file import load_tensions
+from tendon_statics.recordings.load import load_recording
 
 DETERMINED = (Estimate.EQUILIBRIUM, Estimate.DRIVEN_TO_STOP)
 PAPERS_CASE = (paper.TENSION_L, paper.TENSION_S)
@@ -26,7 +26,7 @@ PAPERS_CASE = (paper.TENSION_L, paper.TENSION_S)
 
 def main() -> None:
     """Run the demo."""
-    rows = [sample[:2] for sample in load_tensions(installed_config('demo_tensions.csv'))]
+    rows = load_recording(installed_config('demo_tensions.csv')).tensions()
     design = str(installed_config('preliminary_design.yaml'))
     # A recording that is played once is to lose no row, not even the first.
     reliable = ('-p', 'qos_overrides./tensions.subscription.reliability:=reliable')

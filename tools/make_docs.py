@@ -7,6 +7,7 @@ that command prints stands between it and ``<!-- end -->``. Figures are files, l
 from __future__ import annotations
 
 import io
+import os
 import re
 import shlex
 import sys
@@ -20,9 +21,17 @@ import list_permissions
 from tendon_statics.command_line.main import main as run
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = ('README.md', 'docs/model.md', 'docs/node.md', 'docs/rig.md', 'docs/security.md')
+PAGES = (
+    'README.md',
+    *('docs/calibration.md', 'docs/model.md', 'docs/node.md', 'docs/rig.md', 'docs/security.md'),
+)
+SESSION = 'config/recorded_session.mcap'
 FIGURES = {
+    'docs/calibration.svg': f'plot calibration {SESSION} --motion-step-deg 3 '
+    '--bend-angle-stddev-deg 0.29 --pressure-stddev 8',
     'docs/hysteresis.svg': 'plot hysteresis',
+    'docs/map.svg': 'plot map --tension-l-range 0.8 1.2 --tension-s-range 1.6 2.4',
+    'docs/recording.svg': f'plot recording {SESSION}',
     'docs/residual.svg': 'plot residual',
     'docs/unit.svg': 'plot unit',
 }
@@ -57,6 +66,7 @@ def made(page: str) -> str:
 
 def main() -> int:
     """Rewrite the pages and figures."""
+    os.chdir(ROOT)  # which the names of files in the pages are relative to
     for name in PAGES:
         path = ROOT / name
         path.write_text(made(path.read_text(encoding='utf-8')), encoding='utf-8')

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from io import StringIO
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
+from ..output_file import output_file
 from .options import UsageError
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 FORMATS = ('.pdf', '.png', '.svg')
 
+SIZE = (6.4, 4.0)
+"""Width and height in inches, unless a figure has its own"""
+
 # Okabe and Ito's palette, told apart with any colour vision and in grey print.
 BLUE, ORANGE, GREEN, VERMILION = '#0072B2', '#E69F00', '#009E73', '#D55E00'
+SKY, GREY = '#56B4E9', '#999999'
 
 _STYLE = {
     'axes.axisbelow': True,
@@ -31,18 +37,18 @@ _STYLE = {
     'svg.hashsalt': 'tendon_statics',
 }
 
+Result = TypeVar('Result')
+
 
 @contextmanager
-def figure(path: Path, width: float = 6.4, height: float = 4.0) -> Iterator[Axes]:
-    """Give axes to draw on; write them to `path` by its ending. Width and height in inches.
+def _styled(size: tuple[float, float]) -> Iterator[Figure]:
+    """Give a figure to draw on.
 
     Raises
     ------
     UsageError
-        If the ending is not one of `FORMATS`, matplotlib is missing or the file cannot be written.
+        If matplotlib is missing.
     """
-    if path.suffix not in FORMATS:
-        raise UsageError(f'{path}: a figure is written to a file ending in {", ".join(FORMATS)}')
     try:
         import matplotlib as mpl
         from matplotlib.figure import Figure
@@ -51,10 +57,41 @@ def figure(path: Path, width: float = 6.4, height: float = 4.0) -> Iterator[Axes
             'figures need matplotlib: install python3-matplotlib or pip install matplotlib'
         ) from None
     with mpl.rc_context(_STYLE):
-        drawing = Figure(figsize=(width, height))
-        yield drawing.subplots()
+        yield Figure(figsize=size)
+
+
+def write_figure(
+    path: Path, draw: Callable[[Figure], Result], size: tuple[float, float] = SIZE
+) -> Result:
+    """Draw a figure and write it to `path`, by its ending; return what `draw` does.
+
+    Raises
+    ------
+    UsageError
+        If the ending is not one of `FORMATS`, or matplotlib is missing.
+    OutputError
+        If the file cannot be written.
+    """
+    if path.suffix not in FORMATS:
+        raise UsageError(f'{path}: a figure is written to a file ending in {", ".join(FORMATS)}')
+    with _styled(size) as drawing:
+        result = draw(drawing)
         metadata = {'Date': None} if path.suffix == '.svg' else {}
-        try:
-            drawing.savefig(path, metadata=metadata)
-        except OSError as error:
-            raise UsageError(f'{path}: it cannot be written: {error.strerror}') from None
+        with output_file(path) as temporary:
+            drawing.savefig(temporary, metadata=metadata)
+    return result
+
+
+def svg_of(draw: Callable[[Figure], object], size: tuple[float, float] = SIZE) -> str:
+    """Draw a figure and return it as an SVG element, to stand within a page.
+
+    Raises
+    ------
+    UsageError
+        If matplotlib is missing.
+    """
+    with _styled(size) as drawing:
+        draw(drawing)
+        text = StringIO()
+        drawing.savefig(text, format='svg', metadata={'Date': None})
+    return text.getvalue()[text.getvalue().index('<svg') :]

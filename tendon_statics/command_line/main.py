@@ -9,18 +9,29 @@ from collections.abc import Sequence
 from importlib import import_module
 from typing import NoReturn
 
-from ..physics.errors import BendAngleError, DesignError, TensionError, UnreachableError
-from ..tension_file import TensionFileError
+from ..output_file import OutputError
+from ..physics.errors import (
+    BendAngleError,
+    CalibrationError,
+    DesignError,
+    TensionError,
+    UnreachableError,
+)
+from ..recordings.errors import RecordingError
 from .options import UsageError
 
 VERBS = {
     'solve': 'bend angle and joint pressure of one pair of cable tensions',
     'admissible': 'the bend angles at which friction can hold the unit',
+    'calibrate': 'fit a design to a recorded session, with the uncertainty of every value',
+    'replay': 'every sample of a recorded session through the model',
+    'report': 'a recorded session and its calibration as one HTML file',
+    'sweep': 'a map of the answers over both cable tensions, as a file',
     'track': 'follow the unit, with memory, through the tensions of a CSV file',
     'invert': 'the tensions at which the unit is about to slip at a bend angle',
     'paper': "the paper's published case: errata, identified values and sign check, as tables",
     'design': 'check a design file and show what is in it',
-    'plot': 'figures: Eq. (4), the unit, its hysteresis',
+    'plot': 'figures: Eq. (4), the unit, its hysteresis, maps, recordings, calibrations',
 }
 """Verb → what it does; the module of the same name has the rest."""
 
@@ -31,7 +42,9 @@ ERRORS = (
     TensionError,
     BendAngleError,
     UnreachableError,
-    TensionFileError,
+    CalibrationError,
+    RecordingError,
+    OutputError,
     OSError,
 )
 """What is the user's to mend"""
@@ -55,7 +68,11 @@ class _Version(argparse.Action):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run ``tendon-statics``; return the exit code: 0, or 2 with one line on stderr."""
+    """Run ``tendon-statics``; return the exit code.
+
+    It is 0; 1 if a recording could not be read as a whole, with what was missing on stderr; or 2
+    with one line on stderr.
+    """
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     parser = _Parser(
         prog='tendon-statics',
@@ -71,7 +88,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             subparser.set_defaults(run=module.run)
     try:
         chosen = parser.parse_args(arguments)
-        chosen.run(chosen)
+        code: int | None = chosen.run(chosen)
         sys.stdout.flush()
     except BrokenPipeError:
         # The reader of our output has gone, as `head` does; that is no error of ours.
@@ -82,7 +99,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(error, OSError):
             _drop_output()
         return 2
-    return 0
+    return code or 0
 
 
 def _drop_output() -> None:

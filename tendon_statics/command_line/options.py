@@ -43,6 +43,17 @@ def add_tension_options(
         )
 
 
+def add_tension_stddev_option(parser: argparse.ArgumentParser) -> None:
+    """Add ``--tension-stddev N``."""
+    parser.add_argument(
+        '--tension-stddev',
+        type=float,
+        default=0.01,
+        metavar='N',
+        help='standard deviation of each tension in N; default: %(default)s',
+    )
+
+
 def add_format_option(parser: argparse.ArgumentParser) -> None:
     """Add ``--format text|json``."""
     parser.add_argument(

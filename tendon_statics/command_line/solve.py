@@ -10,6 +10,7 @@ from .options import (
     add_design_option,
     add_format_option,
     add_tension_options,
+    add_tension_stddev_option,
     design_from,
     print_json,
 )
@@ -27,13 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_tension_options(parser)
     add_design_option(parser)
     add_format_option(parser)
-    parser.add_argument(
-        '--tension-stddev',
-        type=float,
-        default=0.01,
-        metavar='N',
-        help='standard deviation of each tension in N, for the text; default: %(default)s',
-    )
+    add_tension_stddev_option(parser)
 
 
 def run(options: argparse.Namespace) -> None:

@@ -1,8 +1,16 @@
-"""Tables as Markdown, which reads well on a terminal too."""
+"""Tables as Markdown, which reads well on a terminal too, and lines of facts."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+
+Facts = Sequence[tuple[str, str]]
+"""Keywords with what there is to say of each"""
+
+
+def fact_lines(facts: Facts) -> str:
+    """Lay out facts, a line each."""
+    return '\n'.join(f'{keyword:<13} {text}' for keyword, text in facts)
 
 
 def markdown_table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import csv
 import sys
+from typing import Any
 
-from ..physics import StickSlipTracker, TensionError
-from ..tension_file import Sample, load_tensions
+from numpy.typing import NDArray
+
+from ..recordings.load import load_recording
+from ..recordings.replay import replay
+from ..recordings.table_output import write_csv
 from .options import add_design_option, design_from
-
-COLUMNS = ('tension_l', 'tension_s', 'bend_angle', 'regime', 'slip_margin', 'angle_assured')
+from .recording_options import report_damage
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,21 +32,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_design_option(parser)
 
 
-def run(options: argparse.Namespace) -> None:
-    """Print a row for each row of the file: angle in rad, regime, margin, certainty."""
-    tracker = StickSlipTracker(design_from(options), options.initial_bend_angle)
-    samples = load_tensions(options.file)
-    has_times = samples[0].time is not None
-    writer = csv.writer(sys.stdout, lineterminator='\n')
-    writer.writerow(['time', *COLUMNS] if has_times else COLUMNS)
-    for sample in samples:
-        row = [sample.tension_l, sample.tension_s, *_tracked(tracker, sample)]
-        writer.writerow([sample.time, *row] if has_times else row)
-
-
-def _tracked(tracker: StickSlipTracker, sample: Sample) -> tuple[object, ...]:
-    try:
-        state = tracker.update(sample.tension_l, sample.tension_s)
-    except TensionError:
-        return '', 'invalid', '', ''
-    return state.bend_angle, state.regime, state.slip_margin, state.angle_assured
+def run(options: argparse.Namespace) -> int:
+    """Print a row for each sample: angle in rad, regime, margin, certainty."""
+    recording = load_recording(options.file)
+    tracked = replay(
+        design_from(options),
+        recording,
+        'tracking',
+        initial_bend_angle=options.initial_bend_angle,
+    )
+    columns: dict[str, NDArray[Any]] = {}
+    if recording.time is not None:
+        columns['time'] = recording.time
+    columns |= {
+        'tension_l': recording.tension_l,
+        'tension_s': recording.tension_s,
+        'bend_angle': tracked.bend_angle,
+        'regime': tracked.regime,
+        'slip_margin': tracked.slip_margin,
+        'angle_assured': tracked.angle_assured,
+    }
+    write_csv(sys.stdout, columns)
+    return report_damage(recording)

@@ -16,7 +16,8 @@ from rclpy.logging import get_logger
 from rclpy.node import Node
 
 from ..installed_files import installed_config
-from ..tension_file import TensionFileError, load_tensions
+from ..recordings.errors import RecordingError
+from ..recordings.load import load_recording
 from .faults import STAMP_FAULTS, Fault, FaultMaker, FaultSettings, Reading, fault_parameters
 from .number_parameter import NumberParameter, SettingError
 from .parameters import (
@@ -81,9 +82,10 @@ class PulleyDriver(Node):
                     for parameter in fault_parameters()
                 }
             )
-            self._rows = load_tensions(path or installed_config('demo_tensions.csv'))
-        except TensionFileError as error:
+            recording = load_recording(path or installed_config('demo_tensions.csv')).whole()
+        except RecordingError as error:
             raise StartError(str(error)) from None
+        self._rows = recording.tensions()
         for gain, value in zip(GAINS, self._gains, strict=True):
             if value == 0.0:
                 raise SettingError(f'{gain.name} is 0, but N = gain raw + bias needs another')
@@ -147,7 +149,7 @@ class PulleyDriver(Node):
 
     def _send(self) -> None:
         row = self._rows[self._sent['readings'] % len(self._rows)]
-        reading = self._faults.reading(row[:2], self.get_clock().now().nanoseconds)
+        reading = self._faults.reading(row, self.get_clock().now().nanoseconds)
         messages = self._publish(reading) if reading.fault is not Fault.DROPOUT else 0
         # Only now, since the context may end in the midst of it.
         self._done += 1

@@ -85,17 +85,40 @@ def contact_at(
     The sign of F is the side towards which the unit would slip without it, positive for s.
     """
     side = math.copysign(1.0, friction_force)
-    angle, friction = side * bend_angle, abs(friction_force)
-    phi = design.contact_centre_angle + angle
+    phi = design.contact_centre_angle + side * bend_angle
+    return split_contact(
+        design,
+        total_tension,
+        normal_force,
+        friction_force,
+        phi=(side * math.sin(phi), math.cos(phi)),
+        theta=(math.sin(bend_angle), math.cos(bend_angle)),
+    )
+
+
+def split_contact(
+    design: JointDesign,
+    total_tension: float,
+    normal_force: float,
+    friction_force: float,
+    phi: tuple[float, float],
+    theta: tuple[float, float],
+) -> Contact:
+    """Work out `contact_at` from sine and cosine of both angles; floats, or arrays of one shape.
+
+    The sine of φ comes with the sign of F.
+    """
+    sin_phi, cos_phi = phi
+    sin_theta, cos_theta = theta
     forces = ContactForces(
-        pressure_x=side * normal_force * math.sin(phi),
-        pressure_z=normal_force * math.cos(phi),
-        friction_x=side * friction * math.cos(phi),
-        friction_z=friction * math.sin(phi),
+        pressure_x=normal_force * sin_phi,
+        pressure_z=normal_force * cos_phi,
+        friction_x=friction_force * cos_phi,
+        friction_z=friction_force * sin_phi,
     )
     lift = normal_force - total_tension
     remainder = ForceRemainder(
-        x=lift * math.sin(bend_angle) - forces.friction_x,
-        z=lift * math.cos(bend_angle) + forces.friction_z - design.weight,
+        x=lift * sin_theta - forces.friction_x,
+        z=lift * cos_theta + forces.friction_z - design.weight,
     )
     return Contact(forces, remainder, forces.friction_z > design.weight)

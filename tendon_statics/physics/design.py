@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import Any
 
 from .errors import DesignError
+from .geometry import SlipGeometry
 
 
 @dataclasses.dataclass(frozen=True)
@@ -167,6 +168,11 @@ class JointDesign:
     def contact_area(self) -> float:
         """C w, in m²: contact force over mean pressure."""
         return self.contact_length * self.contact_width
+
+    @cached_property
+    def slip_geometry(self) -> SlipGeometry:
+        """What the slip equation takes from the design alone."""
+        return SlipGeometry(self)
 
 
 # Below this the contact length C, and with it every pressure, loses its digits.

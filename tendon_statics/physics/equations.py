@@ -19,6 +19,96 @@ from collections.abc import Callable
 from fractions import Fraction
 
 from .design import JointDesign
+from .geometry import Attitude
+
+Point = tuple[float, float, float, float, float]
+"""An angle θ, and there N_m / T, N_f / T, R / T and cos φ / cos θ"""
+
+
+class NormalForces:
+    """N_m, N_f and R of one design and one pair of tensions, as shares of the total tension T.
+
+    As shares the three keep their digits at any size of T. What depends on the tensions alone is
+    worked out once, here.
+
+    Parameters
+    ----------
+    tension_l, tension_s : float
+        Cable tensions in N, their sum above the weight.
+
+    Attributes
+    ----------
+    total : float
+        T in N.
+    offset, gain : float
+        Of the moment: N_m / T = offset + gain sin θ.
+    weight, friction_weight, excess, product : float
+        W / T, μ W / T, 1 − W / T and 1 − (W / T)².
+    """
+
+    __slots__ = (
+        'excess',
+        'friction_weight',
+        'gain',
+        'geometry',
+        'offset',
+        'product',
+        'total',
+        'weight',
+    )
+
+    def __init__(self, design: JointDesign, tension_l: float, tension_s: float) -> None:
+        geometry = design.slip_geometry
+        total = tension_l + tension_s
+        self.geometry = geometry
+        self.total = total
+        self.offset = (tension_s - tension_l) / total * geometry.cable_gain
+        self.gain = geometry.weight_gain / total
+        self.weight = weight = geometry.weight / total
+        self.friction_weight = geometry.friction * weight
+        self.excess = excess = self._weight_excess(design, tension_l, tension_s) / total
+        self.product = excess * (1.0 + weight)
+
+    @staticmethod
+    def _weight_excess(design: JointDesign, tension_l: float, tension_s: float) -> float:
+        return weight_excess(design, tension_l, tension_s)
+
+    def point(self, bend_angle: float) -> Point:
+        """Return the three at an angle in rad."""
+        return self.point_at(self.geometry.attitude(bend_angle))
+
+    def point_at(self, attitude: Attitude) -> Point:
+        """Return the three at an attitude of the unit."""
+        bend_angle, sin_theta, spare, slide, direction = attitude
+        excess, product = self.excess, self.product
+        b = excess + self.weight * spare
+        lift = spare - excess
+        root = math.sqrt(lift * lift + product * slide * slide)
+        # B < 0 needs μ > 1; there the other form of the same root is the one that does not cancel.
+        force = product / (b + root) if b > 0.0 else (root - b) / self.geometry.friction_excess
+        return bend_angle, self.offset + self.gain * sin_theta, force, root, direction
+
+    def quartic(self) -> tuple[float, float, float, float, float]:
+        """Coefficients c0 to c4 of a quartic in t = tan(θ/2) whose roots include those of g.
+
+        It is the quadratic of N_f with N_m put in, [(1 − μ²) N_m² − 2 B N_m + T² − W²] / T² times
+        (1 + t²)². Next to a root of g it is positive where g is negative.
+        """
+        geometry = self.geometry
+        offset, product = self.offset, self.product
+        double_gain = 2.0 * self.gain
+        standing = 2.0 * self.friction_weight * geometry.sine
+        # 2 B − (1 − μ²) N_m, which N_m is multiplied with, as h0 + h1 t + h2 t².
+        middle = 2.0 + geometry.friction_excess * offset
+        h0, h2 = middle - standing, middle + standing
+        h1 = geometry.friction_excess * double_gain - 4.0 * self.friction_weight * geometry.cosine
+        return (
+            product - offset * h0,
+            -offset * h1 - double_gain * h0,
+            2.0 * (product - offset * middle) - double_gain * h1,
+            -offset * h1 - double_gain * h2,
+            product - offset * h2,
+        )
 
 
 def normal_force_ratios(
@@ -26,55 +116,23 @@ def normal_force_ratios(
 ) -> Callable[[float], tuple[float, float, float]]:
     """Return the function θ → (N_m / T, N_f / T, R / T) of one pair of tensions.
 
-    What depends on design and tensions alone is computed here, once; the function returned is
-    what a root finder calls. As shares of the total tension T the three keep their digits at any
-    size of T.
-
     Parameters
     ----------
     tension_l, tension_s : float
         Cable tensions in N, their sum above the weight.
     """
-    friction = design.friction_coefficient
-    total = tension_l + tension_s
-    weight = design.weight / total
-    resisting_arm = friction * design.ball_radius
-    cable_arm = design.ball_radius + design.cable_offset
-    moment_offset = (tension_s - tension_l) / total * cable_arm / resisting_arm
-    moment_gain = weight * design.com_distance / resisting_arm
-    excess = weight_excess(design, tension_l, tension_s) / total
-    product = excess * (1.0 + weight)
-    friction_squared_product = friction * friction * product
-    friction_excess = (friction - 1.0) * (friction + 1.0)
-    sin_beta = math.sin(design.contact_centre_angle)
-    cos_beta = math.cos(design.contact_centre_angle)
-    sin, cos, sqrt = math.sin, math.cos, math.sqrt
-
-    def ratios(bend_angle: float) -> tuple[float, float, float]:
-        sin_theta = sin(bend_angle)
-        cos_theta = cos(bend_angle)
-        sin_phi = sin_beta * cos_theta + cos_beta * sin_theta
-        cos_phi = cos_beta * cos_theta - sin_beta * sin_theta
-        # 1 − μ sin φ, in terms that do not cancel; B and W − μ T sin φ both follow from it.
-        below_one = cos_phi * cos_phi / (1.0 + sin_phi) if sin_phi > 0.0 else 1.0 - sin_phi
-        spare = 1.0 - friction + friction * below_one
-        b = excess + weight * spare
-        lift = spare - excess
-        root = sqrt(lift * lift + friction_squared_product * cos_phi * cos_phi)
-        # B < 0 needs μ > 1; there the other form of the same root is the one that does not cancel.
-        force = product / (b + root) if b > 0.0 else (root - b) / friction_excess
-        return moment_offset + moment_gain * sin_theta, force, root
-
-    return ratios
+    forces = NormalForces(design, tension_l, tension_s)
+    return lambda bend_angle: forces.point(bend_angle)[1:4]
 
 
 def weight_excess(design: JointDesign, tension_l: float, tension_s: float) -> float:
     """T_l + T_s − W in N, without loss of digits where the tensions hardly exceed the weight."""
-    excess = tension_l + tension_s - design.weight
-    if excess > 0.01 * design.weight:
+    weight = design.weight
+    excess = tension_l + tension_s - weight
+    if excess > 0.01 * weight:
         return excess
-    weight = Fraction(design.mass) * Fraction(design.gravity)
-    return float(Fraction(tension_l) + Fraction(tension_s) - weight)
+    exact_weight = Fraction(design.mass) * Fraction(design.gravity)
+    return float(Fraction(tension_l) + Fraction(tension_s) - exact_weight)
 
 
 def residual(design: JointDesign, tension_l: float, tension_s: float, bend_angle: float) -> float:

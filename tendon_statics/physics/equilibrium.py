@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from enum import Enum
 from typing import Any, NamedTuple
 
-from .contact import ContactForces, ForceRemainder
+from .contact import Contact, ContactForces, ForceRemainder, contact_at
+from .design import JointDesign
+from .sensitivity import Gradients, TensionGradient, gradients_at_limit, stddev_of
 
 
 class Regime(str, Enum):
@@ -29,31 +30,9 @@ class Regime(str, Enum):
         return self.value
 
 
-class TensionGradient(NamedTuple):
-    """Derivatives of one quantity by the two cable tensions."""
-
-    tension_l: float
-    tension_s: float
-
-    def stddev(self, tension_stddev: float) -> float:
-        """Standard deviation of the quantity, to first order.
-
-        Parameters
-        ----------
-        tension_stddev : float
-            Standard deviation of each tension in N, the two independent.
-        """
-        return tension_stddev * math.hypot(self.tension_l, self.tension_s)
-
-
-def stddev_of(gradient: TensionGradient | None, tension_stddev: float) -> float | None:
-    """Return `TensionGradient.stddev` where there is a gradient, else None."""
-    return None if gradient is None else gradient.stddev(tension_stddev)
-
-
-def plain_fields(result: Any) -> dict[str, Any]:
-    """Return the fields of a named tuple, ready for JSON: nested as dicts, enums as values."""
-    return {name: _plain(value) for name, value in result._asdict().items()}
+def plain(fields: dict[str, Any]) -> dict[str, Any]:
+    """Return fields ready for JSON: nested as dicts, enums as values."""
+    return {name: _plain(value) for name, value in fields.items()}
 
 
 def _plain(value: Any) -> Any:
@@ -65,10 +44,12 @@ def _plain(value: Any) -> Any:
 class Equilibrium(NamedTuple):
     """The answer of `solve`. What the model does not determine is None, never a number.
 
-    The angle is positive towards cable s. All but the first four fields and `iterations` are None
-    where there is no contact force, that is in the regimes ``held`` and ``slack``.
+    The angle is positive towards cable s. All but `design`, regime, tensions, `root_count` and
+    `iterations` are None where there is no contact force, that is in the regimes ``held`` and
+    ``slack``. The forces and the gradients are worked out when they are asked for.
     """
 
+    design: JointDesign
     regime: Regime
     tension_l: float
     """T_l in N, as given"""
@@ -88,14 +69,34 @@ class Equilibrium(NamedTuple):
     """Whether the unit comes back when pushed past the angle; False: it slides on to the stop"""
     residual: float | None = None
     """g(θ) = N_m − N_f in N; at the stop, by how much the moment exceeds friction"""
-    forces: ContactForces | None = None
-    force_remainder: ForceRemainder | None = None
-    branch_consistent: bool | None = None
-    """Whether μ N sin(β + θ) > W, so that Eq. (2) asks for the root taken (N < T)"""
-    bend_angle_gradient: TensionGradient | None = None
-    """∂θ/∂T in rad/N; None also where it is infinite (two roots merging)"""
-    pressure_gradient: TensionGradient | None = None
-    """∂p/∂T in Pa/N; None also where it is infinite"""
+
+    @property
+    def forces(self) -> ContactForces | None:
+        """The forces on the joint surface."""
+        contact = self._contact
+        return None if contact is None else contact.forces
+
+    @property
+    def force_remainder(self) -> ForceRemainder | None:
+        """What Eqs. (1) and (2) leave over, one by one."""
+        contact = self._contact
+        return None if contact is None else contact.remainder
+
+    @property
+    def branch_consistent(self) -> bool | None:
+        """Whether μ N sin(β + θ) > W, so that Eq. (2) asks for the root taken (N < T)."""
+        contact = self._contact
+        return None if contact is None else contact.branch_consistent
+
+    @property
+    def bend_angle_gradient(self) -> TensionGradient | None:
+        """∂θ/∂T in rad/N; None also where it is infinite (two roots merging)."""
+        return self._gradients[0]
+
+    @property
+    def pressure_gradient(self) -> TensionGradient | None:
+        """∂p/∂T in Pa/N; None also where it is infinite."""
+        return self._gradients[1]
 
     def bend_angle_stddev(self, tension_stddev: float) -> float | None:
         """Return the standard deviation of the angle in rad, to first order, None if not known.
@@ -112,5 +113,40 @@ class Equilibrium(NamedTuple):
         return stddev_of(self.pressure_gradient, tension_stddev)
 
     def as_dict(self) -> dict[str, Any]:
-        """Return the fields by name, ready for JSON: nested as dicts, undetermined as None."""
-        return plain_fields(self)
+        """Return all but the design by name, ready for JSON: nested as dicts."""
+        forces, remainder, consistent = self._contact or (None, None, None)
+        angle_gradient, pressure_gradient = self._gradients
+        fields = self._asdict()
+        del fields['design']
+        fields['forces'] = forces
+        fields['force_remainder'] = remainder
+        fields['branch_consistent'] = consistent
+        fields['bend_angle_gradient'] = angle_gradient
+        fields['pressure_gradient'] = pressure_gradient
+        return plain(fields)
+
+    @property
+    def _side(self) -> float:
+        """The side of the stronger cable, to which the unit is driven."""
+        return -1.0 if self.tension_l > self.tension_s else 1.0
+
+    @property
+    def _contact(self) -> Contact | None:
+        if self.bend_angle is None or self.normal_force is None:
+            return None
+        friction_force = self._side * self.design.friction_coefficient * self.normal_force
+        total = self.tension_l + self.tension_s
+        return contact_at(self.design, total, self.bend_angle, self.normal_force, friction_force)
+
+    @property
+    def _gradients(self) -> Gradients:
+        if self.bend_angle is None:
+            return None, None
+        return gradients_at_limit(
+            self.design,
+            self.tension_l,
+            self.tension_s,
+            self.bend_angle,
+            self._side,
+            at_stop=self.regime is Regime.DRIVEN_TO_STOP,
+        )

@@ -27,3 +27,7 @@ class BendAngleError(ValueError):
 
 class UnreachableError(ValueError):
     """A bend angle and joint pressure that no pair of tensions gives."""
+
+
+class CalibrationError(ValueError):
+    """Data or parameters from which no design can be fitted."""

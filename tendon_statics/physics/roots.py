@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from .design import JointDesign
-from .equations import normal_force_ratios
+from .equations import NormalForces, Point
 
 BEND_ANGLE_TOLERANCE = 1e-10
 """Width in rad of the bracket at which the bisection ends; the paper's."""
@@ -22,7 +21,7 @@ MOST_CUTS = 2000
 any unit but one made up to be flat"""
 
 
-class SlipEquation:
+class SlipEquation(NormalForces):
     """g(θ) = N_m(θ) − N_f(θ) = 0 for one design and one pair of tensions.
 
     N_f and N_f / R both grow with sin φ: their derivatives by it are μ W N_f / R and
@@ -31,26 +30,29 @@ class SlipEquation:
     no root, or one at the most.
     """
 
-    def __init__(self, design: JointDesign, tension_l: float, tension_s: float) -> None:
-        self._ratios = normal_force_ratios(design, tension_l, tension_s)
-        self._total = tension_l + tension_s
-        self._beta = design.contact_centre_angle
-        # Slope of N_m by sin θ and factor of the slope of N_f, in units of T.
-        weight = design.weight / self._total
-        self._moment_gain = (
-            weight * design.com_distance / (design.friction_coefficient * design.ball_radius)
-        )
-        self._friction_weight = design.friction_coefficient * weight
+    __slots__ = ()
 
     def residual(self, bend_angle: float) -> float:
         """Return g in N at an angle in rad."""
-        moment, force, _ = self._ratios(bend_angle)
-        return self._total * (moment - force)
+        return self.residual_at(self.point(bend_angle))
+
+    def residual_at(self, point: Point) -> float:
+        """Return g in N."""
+        return self.total * (point[1] - point[2])
 
     def slope(self, bend_angle: float) -> float:
         """∂g/∂θ in N/rad; not finite at the kink that N_f has where R = 0."""
-        _, force, root = self._ratios(bend_angle)
-        return self._total * math.cos(bend_angle) * self._scaled_slope(bend_angle, force, root)
+        return self.slope_at(self.point(bend_angle))
+
+    def slope_at(self, point: Point) -> float:
+        """∂g/∂θ in N/rad; not finite where R = 0."""
+        return self.geometry.weight_gain * math.cos(point[0]) - self.force_slope_at(point)
+
+    def force_slope_at(self, point: Point) -> float:
+        """∂N_f/∂θ = μ W cos φ N_f / R in N/rad; not finite where R = 0."""
+        angle, _, force, root, direction = point
+        by_sine = self.friction_weight * force / root if root > 0.0 else math.inf
+        return self.total * by_sine * math.cos(angle) * direction
 
     def brackets(self, low: float, high: float) -> list[tuple[float, float]]:
         """Ascending, disjoint intervals in [low, high] that hold one root each and all together.
@@ -63,10 +65,9 @@ class SlipEquation:
         low, high : float
             Angles in rad, within ±π/2.
         """
-        if max(abs(self._moment_gain), self._friction_weight) < NEGLIGIBLE_WEIGHT:
+        if self.geometry.weight_influence < NEGLIGIBLE_WEIGHT * self.total:
             return []
-        knots = self._quarter_turns(low, high)
-        ends = [(angle, *self._ratios(angle)) for angle in knots]
+        ends = [self.point_at(knot) for knot in self.geometry.knots(low, high)]
         found = [(low, low)] if ends[0][1] == ends[0][2] else []
         pending = list(pairwise(ends))
         unresolved: list[_Interval] = []
@@ -83,75 +84,95 @@ class SlipEquation:
                     if _changes_sign(left, right):
                         found.append((left[0], right[0]))
                 else:
-                    middle = 0.5 * (left[0] + right[0])
-                    cut = (middle, *self._ratios(middle))
+                    cut = self.point(0.5 * (left[0] + right[0]))
                     pending += [(left, cut), (cut, right)]
                     cuts += 1
-        for cluster in _clusters(unresolved):
-            found += _brackets_in(cluster)
-        return sorted(found)
+        if unresolved:
+            for cluster in _clusters(unresolved):
+                found += _brackets_in(cluster)
+        found.sort()
+        return found
 
     def bisect(self, low: float, high: float) -> tuple[float, int]:
         """Halve a bracket down to `BEND_ANGLE_TOLERANCE`; return the root and the halvings.
 
-        The root is where the chord over the last bracket is zero, which makes it as exact as g.
+        What is halved is tan(θ/2), in which a quartic tells the sign of g. The last bracket is
+        then tried with g itself; should the quartic's rounding have misled, g is bisected. The
+        root is where the chord over the last bracket is zero, which makes it as exact as g.
         """
-        ratios = self._ratios
+        last_low, last_high, iterations = self._bisect_quartic(low, high)
+        at_low, at_high = self._ratio(last_low), self._ratio(last_high)
+        if at_low * at_high > 0.0:
+            last_low, last_high, iterations = self._bisect_residual(low, high)
+            at_low, at_high = self._ratio(last_low), self._ratio(last_high)
+        if at_low == at_high:
+            return last_high, iterations
+        root = last_high - at_high * (last_high - last_low) / (at_high - at_low)
+        return min(max(root, last_low), last_high), iterations
+
+    def _ratio(self, bend_angle: float) -> float:
+        """Return g / T at an angle in rad."""
+        _, moment, force, _, _ = self.point_at(self.geometry.attitude(bend_angle))
+        return moment - force
+
+    def _bisect_quartic(self, low: float, high: float) -> tuple[float, float, int]:
+        """Return the last bracket and the halvings; the innermost loop, with no call in it."""
+        c0, c1, c2, c3, c4 = self.quartic()
+        t_low, t_high = math.tan(0.5 * low), math.tan(0.5 * high)
+        if (((c4 * t_low + c3) * t_low + c2) * t_low + c1) * t_low + c0 < 0.0:
+            c0, c1, c2, c3, c4 = -c0, -c1, -c2, -c3, -c4
+        # dθ/dt is 2 at the most. What frexp returns is the logarithm to base 2, rounded up.
+        _, iterations = math.frexp(2.0 * (t_high - t_low) / BEND_ANGLE_TOLERANCE)
+        iterations = max(iterations, 0)
+        for _ in range(iterations):
+            t = 0.5 * (t_low + t_high)
+            if (((c4 * t + c3) * t + c2) * t + c1) * t + c0 > 0.0:
+                t_low = t
+            else:
+                t_high = t
+        # An end that has not moved stays as it was, to the last bit.
+        return max(low, 2.0 * math.atan(t_low)), min(high, 2.0 * math.atan(t_high)), iterations
+
+    def _bisect_residual(self, low: float, high: float) -> tuple[float, float, int]:
         # The sign at `low`; at `high` g may be zero.
-        moment, force, _ = ratios(low)
-        rising = moment < force
+        rising = self._ratio(low) < 0.0
         iterations = 0
         while high - low > BEND_ANGLE_TOLERANCE:
             middle = 0.5 * (low + high)
-            moment, force, _ = ratios(middle)
-            if (moment < force) if rising else (moment > force):
+            at_middle = self._ratio(middle)
+            if (at_middle < 0.0) if rising else (at_middle > 0.0):
                 low = middle
             else:
                 high = middle
             iterations += 1
-        at_low, at_high = self.residual(low), self.residual(high)
-        if at_low == at_high:
-            return high, iterations
-        root = high - at_high * (high - low) / (at_high - at_low)
-        return min(max(root, low), high), iterations
+        return low, high, iterations
 
-    def _quarter_turns(self, low: float, high: float) -> list[float]:
-        """`low`, `high` and the angles between at which sin φ, cos φ or cos θ has an extreme."""
-        turns = (0.0, -self._beta, 0.5 * math.pi - self._beta, math.pi - self._beta)
-        return [low, *sorted(angle for angle in set(turns) if low < angle < high), high]
+    def _is_monotonic(self, left: Point, right: Point) -> bool:
+        """Whether the slope is shown to keep one sign over an interval.
 
-    def _scaled_slope(self, bend_angle: float, force: float, root: float) -> float:
-        """(∂g/∂θ) / (T cos θ): of the slope's sign, with cos φ / cos θ as a factor."""
-        return self._moment_gain - self._friction_slope(force, root) * self._direction(bend_angle)
-
-    def _friction_slope(self, force: float, root: float) -> float:
-        """μ W N_f / R in units of T: the slope of N_f by sin φ."""
-        return self._friction_weight * force / root if root > 0.0 else math.inf
-
-    def _direction(self, bend_angle: float) -> float:
-        """Return cos φ / cos θ = cos β − sin β tan θ, which falls with θ."""
-        return math.cos(self._beta) - math.sin(self._beta) * math.tan(bend_angle)
-
-    def _is_monotonic(self, left: _Point, right: _Point) -> bool:
-        """Whether the slope is shown to keep one sign over an interval."""
-        if left[3] == 0.0 or right[3] == 0.0:
+        The slope's sign is that of (∂g/∂θ) / cos θ, in which cos φ / cos θ falls with θ.
+        """
+        _, _, left_force, left_root, left_direction = left
+        _, _, right_force, right_root, right_direction = right
+        if left_root == 0.0 or right_root == 0.0:
             return False
-        products = [
-            self._friction_slope(force, root) * self._direction(angle)
-            for _, _, force, root in (left, right)
-            for angle, _, _, _ in (left, right)
-        ]
-        return max(products) < self._moment_gain or min(products) > self._moment_gain
+        at_left = self.friction_weight * left_force / left_root
+        at_right = self.friction_weight * right_force / right_root
+        products = (
+            at_left * left_direction,
+            at_left * right_direction,
+            at_right * left_direction,
+            at_right * right_direction,
+        )
+        return max(products) < self.gain or min(products) > self.gain
 
 
-_Point = tuple[float, float, float, float]
-"""Angle, N_m / T, N_f / T and R / T."""
-_Interval = tuple[_Point, _Point]
+_Interval = tuple[Point, Point]
 
 
-def _clusters(intervals: list[_Interval]) -> list[list[_Point]]:
+def _clusters(intervals: list[_Interval]) -> list[list[Point]]:
     """Join intervals that lie close together; return the points of each run, ascending."""
-    clusters: list[list[_Point]] = []
+    clusters: list[list[Point]] = []
     for left, right in sorted(intervals):
         if clusters and left[0] - clusters[-1][-1][0] <= 10.0 * FLAT_WIDTH:
             clusters[-1] += [left, right]
@@ -160,7 +181,7 @@ def _clusters(intervals: list[_Interval]) -> list[list[_Point]]:
     return clusters
 
 
-def _brackets_in(cluster: list[_Point]) -> list[tuple[float, float]]:
+def _brackets_in(cluster: list[Point]) -> list[tuple[float, float]]:
     """Brackets where g is too flat to tell roots apart, and its sign may be rounding.
 
     Opposite signs at the two ends are one root. With like signs there are two roots if g is of
@@ -175,14 +196,16 @@ def _brackets_in(cluster: list[_Point]) -> list[tuple[float, float]]:
     return []
 
 
-def _changes_sign(left: _Point, right: _Point) -> bool:
+def _changes_sign(left: Point, right: Point) -> bool:
     """Whether g crosses zero after `left`, up to and with `right`."""
     before, after = left[1] - left[2], right[1] - right[2]
     return before < 0.0 <= after or before > 0.0 >= after
 
 
-def _may_vanish(left: _Point, right: _Point) -> bool:
+def _may_vanish(left: Point, right: Point) -> bool:
     """Whether the ranges of N_m and N_f over an interval overlap."""
-    return max(left[1], right[1]) >= min(left[2], right[2]) and (
-        min(left[1], right[1]) <= max(left[2], right[2])
-    )
+    _, left_moment, left_force, _, _ = left
+    _, right_moment, right_force, _, _ = right
+    if left_moment < left_force:
+        return right_moment >= min(left_force, right_force) or left_moment >= right_force
+    return min(left_moment, right_moment) <= max(left_force, right_force)

@@ -9,9 +9,9 @@ from .admissible import admissible_angles, check_bend_angle, margin_at
 from .contact import ContactForces, ForceRemainder, contact_at
 from .design import JointDesign
 from .equations import normal_force_ratios
-from .equilibrium import Regime, TensionGradient, plain_fields, stddev_of
-from .roots import SlipEquation
-from .solver import check_tensions, gradients_at_limit
+from .equilibrium import Regime, plain
+from .sensitivity import TensionGradient, gradients_at_limit, stddev_of
+from .solver import check_tensions
 
 NO_GRADIENT = TensionGradient(0.0, 0.0)
 
@@ -65,7 +65,7 @@ class TrackedState(NamedTuple):
 
     def as_dict(self) -> dict[str, Any]:
         """Return the fields by name, ready for JSON: nested as dicts, undetermined as None."""
-        return plain_fields(self)
+        return plain(self._asdict())
 
 
 class StickSlipTracker:
@@ -176,9 +176,8 @@ class StickSlipTracker:
             self._assured = True
             return Regime.DRIVEN_TO_STOP
         self._bend_angle = side * landing
-        slope = SlipEquation(self._design, behind, ahead).slope(landing)
         self._gradient, _ = gradients_at_limit(
-            self._design, tension_l, tension_s, self._bend_angle, side, slope
+            self._design, tension_l, tension_s, self._bend_angle, side
         )
         return Regime.SLIPPING
 
@@ -236,7 +235,7 @@ class StickSlipTracker:
             normal_force = total * ratios[1]
             friction_force = side * design.friction_coefficient * normal_force
             _, pressure_gradient = gradients_at_limit(
-                design, tension_l, tension_s, angle, side, math.inf
+                design, tension_l, tension_s, angle, side, at_stop=True
             )
         else:
             moment = (tension_s - tension_l) * arm + weight * design.com_distance * math.sin(angle)

@@ -1,0 +1,48 @@
+"""``tendon-statics calibrate``: fit a design to a recorded session."""
+
+from __future__ import annotations
+
+import argparse
+from datetime import date
+from pathlib import Path
+
+from ..design_file import save_design
+from .calibration_options import add_calibration_options, calibration_from
+from .calibration_text import calibration_text
+from .options import add_design_option, add_format_option, design_from, print_json
+from .recording_options import add_recording_options, recording_from, report_damage
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the verb takes."""
+    add_recording_options(parser)
+    add_design_option(parser)
+    add_calibration_options(parser)
+    parser.add_argument(
+        '--output', type=Path, metavar='FILE.yaml', help='write the fitted design there'
+    )
+    add_format_option(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Fit, write the design, print what is known of it."""
+    recording = recording_from(options)
+    calibration = calibration_from(options, design_from(options), recording)
+    text = calibration_text(calibration, recording.name)
+    if options.output is not None:
+        save_design(options.output, calibration.design, _provenance(options, text))
+    if options.format == 'json':
+        print_json({'data': recording.name, **calibration.as_dict()})
+    else:
+        print(text)
+    return report_damage(recording)
+
+
+def _provenance(options: argparse.Namespace, text: str) -> str:
+    from importlib.metadata import version
+
+    start = Path(options.design).name if options.design else 'the preliminary design'
+    return (
+        f'Fitted on {date.today().isoformat()} by tendon_statics {version("tendon_statics")}, '
+        f'starting from {start}.\n\n{text}'
+    )

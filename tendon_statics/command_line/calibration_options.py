@@ -1,0 +1,70 @@
+"""What the verbs that calibrate have in common."""
+
+from __future__ import annotations
+
+import argparse
+import math
+
+from ..physics import Calibration, JointDesign, calibrate
+from ..physics.calibration import DEFAULT_FIT
+from ..recordings.motion import mark_motion
+from ..recordings.recording import Recording
+from .options import UsageError, add_tension_stddev_option
+
+
+def add_calibration_options(parser: argparse.ArgumentParser) -> None:
+    """Add what is fitted, how samples are known to slip, and how noisy they are."""
+    parser.add_argument(
+        '--fit',
+        default=','.join(DEFAULT_FIT),
+        metavar='NAME,...',
+        help='design parameters to fit; default: %(default)s',
+    )
+    parser.add_argument(
+        '--motion-step-deg',
+        type=float,
+        metavar='DEG',
+        help='take the states from the angle: it moves where it changes by more than this between '
+        'two samples, the sample before is slipping, those at rest are held; default: the '
+        "recording's states, or, without any, every sample with an angle is slipping",
+    )
+    add_tension_stddev_option(parser)
+    parser.add_argument(
+        '--bend-angle-stddev-deg',
+        type=float,
+        default=0.5,
+        metavar='DEG',
+        help='standard deviation of the angle; default: %(default)s',
+    )
+    parser.add_argument(
+        '--pressure-stddev',
+        type=float,
+        metavar='PA',
+        help='standard deviation of the pressure; default: 2 %% of its median',
+    )
+
+
+def states_from(options: argparse.Namespace, recording: Recording) -> Recording:
+    """Give the recording the states that the options ask for."""
+    if options.motion_step_deg is None:
+        return recording
+    return mark_motion(recording, math.radians(options.motion_step_deg))
+
+
+def calibration_from(
+    options: argparse.Namespace, design: JointDesign, recording: Recording
+) -> Calibration:
+    """Fit what the options name."""
+    try:
+        return calibrate(
+            design,
+            states_from(options, recording),
+            [name.strip() for name in options.fit.split(',') if name.strip()],
+            tension_stddev=options.tension_stddev,
+            bend_angle_stddev=math.radians(options.bend_angle_stddev_deg),
+            pressure_stddev=options.pressure_stddev,
+        )
+    except ImportError:
+        raise UsageError(
+            'a calibration needs SciPy: install python3-scipy or pip install scipy'
+        ) from None

@@ -1,0 +1,121 @@
+"""``tendon-statics plot calibration``: how well a fitted design meets a recorded session."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..physics import Calibration
+from ..physics.calibration_result import HELD, SLIPPING
+from ..physics.slip_boundary import boundary_distance
+from ..recordings.recording import Recording
+from .calibration_options import add_calibration_options, calibration_from
+from .figure_recording import MANY
+from .figures import BLUE, GREY, SKY, VERMILION
+from .options import add_design_option, design_from
+from .recording_options import add_recording_options, recording_from, report_damage
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+SIZE = (6.4, 5.6)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the figure takes."""
+    add_recording_options(parser)
+    add_design_option(parser)
+    add_calibration_options(parser)
+
+
+def draw(drawing: Figure, options: argparse.Namespace) -> int:
+    """Read, fit and draw; return the exit code."""
+    recording = recording_from(options)
+    calibration = calibration_from(options, design_from(options), recording)
+    draw_calibration(drawing, calibration, recording)
+    return report_damage(recording)
+
+
+def draw_calibration(drawing: Figure, calibration: Calibration, recording: Recording) -> None:
+    """Draw the samples' distances from the boundary of slip, and the fitted values."""
+    of_distance, of_values = drawing.subplots(
+        2, height_ratios=(3.0, 0.5 + 0.45 * len(calibration.parameters))
+    )
+    _draw_distances(of_distance, calibration, recording)
+    _draw_values(of_values, calibration)
+
+
+def _draw_distances(axes: Axes, calibration: Calibration, recording: Recording) -> None:
+    assert recording.bend_angle is not None
+    degrees = np.degrees(recording.bend_angle)
+    slipping, held = (calibration.roles == role for role in (SLIPPING, HELD))
+    pressure = np.full(len(recording), np.nan)
+    before = boundary_distance(
+        calibration.start,
+        recording.tension_l,
+        recording.tension_s,
+        recording.bend_angle,
+        pressure,
+        calibration.noise,
+    ).standardised
+    after = calibration.distance.standardised
+    axes.axhspan(-2.0, 2.0, color='#e6f1f8', label='within 2 standard deviations')
+    axes.axhline(0.0, color='black', linewidth=0.8)
+    if held.any():
+        axes.plot(
+            *(degrees[held], after[held], '.'),
+            markersize=2.0,
+            color=SKY,
+            label='held, fitted design',
+            rasterized=int(held.sum()) > MANY,
+        )
+    axes.plot(
+        *(degrees[slipping], before[slipping], 'o'),
+        markersize=5.0,
+        fillstyle='none',
+        color=GREY,
+        label='slipping, start design',
+    )
+    axes.plot(
+        *(degrees[slipping], after[slipping], 'o'),
+        markersize=5.0,
+        color=VERMILION,
+        label='slipping, fitted design',
+    )
+    axes.set_yscale('symlog', linthresh=5.0)
+    ticks = (-100, -30, -5, 0, 5, 30, 100)
+    axes.set_yticks(ticks, [f'{tick}'.replace('-', '−') for tick in ticks])
+    shown = np.concatenate([before[slipping], after[slipping], after[held], [-4.0, 4.0]])
+    axes.set_ylim(1.5 * np.nanmin(shown), 1.5 * np.nanmax(shown))
+    axes.set_xlabel('measured bend angle θ [°]')
+    axes.set_ylabel('distance from the boundary\nof slip [standard deviations]')
+    axes.legend(
+        loc='lower center', bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False, markerscale=1.2
+    )
+
+
+def _draw_values(axes: Axes, calibration: Calibration) -> None:
+    """Draw each fitted value with its 95 % interval as a share of where the fit began."""
+    names = []
+    for row, parameter in enumerate(calibration.parameters):
+        names.append(parameter.name.replace('_', ' '))
+        scale = 100.0 / parameter.start if parameter.start else np.nan
+        if parameter.interval is None:
+            axes.annotate(
+                'not determined',
+                (100.0, row),
+                xytext=(6, 0),
+                textcoords='offset points',
+                va='center',
+            )
+            continue
+        low, high = (scale * end for end in parameter.interval)
+        axes.plot([low, high], [row, row], color=BLUE, linewidth=3.0, solid_capstyle='butt')
+        axes.plot(scale * parameter.value, row, 'o', color=BLUE, markersize=6.0)
+    axes.axvline(100.0, color=GREY, linestyle='--', linewidth=1.2)
+    axes.set_yticks(range(len(names)), names)
+    axes.set_ylim(len(names) - 0.5, -0.5)
+    axes.set_xlabel('fitted value with 95 % interval [% of the start value]')

@@ -1,0 +1,67 @@
+"""``tendon-statics plot hysteresis``: the path of a unit whose cables trade tension."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import TYPE_CHECKING
+
+from ..physics import StickSlipTracker, admissible_angles, slip_margin
+from .figures import VERMILION
+from .pair_options import add_pair_options, between, pair_from
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+add_arguments = add_pair_options
+
+
+def draw(drawing: Figure, options: argparse.Namespace) -> None:
+    """Draw the path at a constant total, and the angles that friction can hold."""
+    design, equilibrium = pair_from(options)
+    axes = drawing.subplots()
+    total = equilibrium.tension_l + equilibrium.tension_s
+    # Far enough for the unit to slip both ways, within what the cables can trade.
+    at_limit = [
+        abs(difference)
+        for difference in between(-0.999 * total, 0.999 * total, 1000)
+        if not admissible_angles(design, *_share(total, difference))
+    ]
+    reach = min(1.25 * min(at_limit, default=0.8 * total), 0.999 * total)
+    ramp = between(0.0, reach, 401) + between(reach, -reach, 801) + between(-reach, reach, 801)
+    tracker = StickSlipTracker(design)
+    states = [tracker.update(*_share(total, difference)) for difference in ramp]
+
+    differences = between(-reach, reach, 401)
+    stop = design.max_bend_angle
+    angles = between(-stop, stop, 121)
+    margins = [
+        [slip_margin(design, *_share(total, difference), angle) for difference in differences]
+        for angle in angles
+    ]
+    degrees = [math.degrees(angle) for angle in angles]
+    axes.contourf(differences, degrees, margins, levels=[-1.0, 1.0], colors=['#cfe3f1'])
+    axes.plot(
+        ramp,
+        [math.degrees(state.bend_angle or 0.0) for state in states],
+        color=VERMILION,
+        label='path of the unit: load, unload, load the other way',
+    )
+    axes.fill_between([], [], color='#cfe3f1', label='angles that friction can hold')
+    axes.plot([0.0], [0.0], 'o', color=VERMILION, markersize=5)
+    for share in (0.13, 0.33, 0.42, 0.7, 0.85):
+        index = int(share * len(ramp))
+        tail, tip = (
+            (ramp[i], math.degrees(states[i].bend_angle or 0.0)) for i in (index, index + 10)
+        )
+        style = {'arrowstyle': '-|>', 'color': VERMILION, 'mutation_scale': 14}
+        axes.annotate('', xy=tip, xytext=tail, arrowprops=style)
+    axes.set_xlabel(f'tension difference T_s − T_l [N], at T_l + T_s = {total:g} N')
+    axes.set_ylabel('bend angle θ [°]')
+    axes.set_ylim(-1.15 * math.degrees(stop), 1.15 * math.degrees(stop))
+    axes.legend(loc='upper center', bbox_to_anchor=(0.5, 1.2), ncols=1, frameon=False)
+
+
+def _share(total: float, difference: float) -> tuple[float, float]:
+    """Tensions of a given sum and difference."""
+    return 0.5 * (total - difference), 0.5 * (total + difference)

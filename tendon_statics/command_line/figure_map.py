@@ -1,0 +1,131 @@
+"""``tendon-statics plot map``: an answer over both cable tensions."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..physics import EquilibriumBatch, Regime
+from ..physics.batch import REGIME_CODES
+from ..recordings.recording import Floats
+from .options import add_design_option
+from .sweep import add_grid_options, grid_from
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+SIZE = (6.4, 5.0)
+
+
+class _Quantity(NamedTuple):
+    """What is shown in colour."""
+
+    label: str
+    colours: str
+    """Colour map, even in lightness, told apart with any colour vision"""
+
+
+QUANTITIES = {
+    'bend_angle': _Quantity('bend angle θ [°], towards cable s', 'PuOr'),
+    'pressure': _Quantity('joint pressure p [Pa]', 'cividis'),
+    'sensitivity': _Quantity('bend angle per tension, |∂θ/∂T| [°/N]', 'cividis'),
+}
+
+WIDE = 20.0
+"""Largest over smallest value from which on the colours are logarithmic"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the figure takes."""
+    parser.add_argument(
+        '--quantity',
+        choices=QUANTITIES,
+        default='bend_angle',
+        help='default: %(default)s; sensitivity is the length of the gradient of the angle by the '
+        'two tensions',
+    )
+    add_grid_options(parser)
+    parser.set_defaults(points=401)
+    add_design_option(parser)
+
+
+def draw(drawing: Figure, options: argparse.Namespace) -> None:
+    """Draw the map, and the regimes that have no number."""
+    from matplotlib.colors import ListedColormap, LogNorm
+    from matplotlib.patches import Patch
+
+    answers = grid_from(options)
+    quantity = QUANTITIES[options.quantity]
+    values = _values(answers, options.quantity)
+    across, up = answers.tension_l[:, 0], answers.tension_s[0]
+    axes = drawing.subplots()
+    axes.grid(visible=False)
+
+    has_no_number = {
+        'friction holds: not determined': (answers.regime == REGIME_CODES[Regime.HELD], '#e6e6e6'),
+        'slack, or below the weight': (
+            (answers.regime == REGIME_CODES[Regime.SLACK]) | (answers.regime < 0),
+            '#7f7f7f',
+        ),
+    }
+    if options.quantity == 'sensitivity':
+        at_stop = answers.regime == REGIME_CODES[Regime.DRIVEN_TO_STOP]
+        has_no_number['at the stop: 0'] = (at_stop, '#cfe3f1')
+    patches = []
+    for label, (where, colour) in has_no_number.items():
+        if where.any():
+            area = np.ma.masked_where(~where, np.ones(where.shape))
+            axes.pcolormesh(across, up, area.T, cmap=ListedColormap([colour]), rasterized=True)
+            patches.append(Patch(facecolor=colour, label=label))
+
+    shown = np.ma.masked_invalid(values)
+    limits: dict[str, Any] = {}
+    if options.quantity == 'bend_angle' and shown.count():
+        largest = float(abs(shown).max())
+        limits = {'vmin': -largest, 'vmax': largest}
+    elif shown.count() and shown.max() > WIDE * shown.min():
+        limits = {'norm': LogNorm()}
+    mesh = axes.pcolormesh(across, up, shown.T, cmap=quantity.colours, rasterized=True, **limits)
+    if shown.count():
+        drawing.colorbar(mesh, label=quantity.label)
+    for side, sign in (('s', 1.0), ('l', -1.0)):
+        _name_stop(axes, answers, side, sign)
+    axes.set_xlabel('tension of cable l, T_l [N]')
+    axes.set_ylabel('tension of cable s, T_s [N]')
+    if patches:
+        axes.legend(
+            handles=patches,
+            loc='lower center',
+            bbox_to_anchor=(0.5, 1.0),
+            ncols=2,
+            frameon=False,
+        )
+
+
+def _values(answers: EquilibriumBatch, quantity: str) -> Floats:
+    if quantity == 'bend_angle':
+        return np.degrees(answers.bend_angle)
+    if quantity == 'pressure':
+        return answers.pressure
+    slope = np.hypot(*answers.bend_angle_gradient)
+    return np.where(slope > 0.0, np.degrees(slope), math.nan)
+
+
+def _name_stop(axes: Axes, answers: EquilibriumBatch, side: str, sign: float) -> None:
+    """Write into the region where the unit is driven to a stop that it is."""
+    stopped = answers.regime == REGIME_CODES[Regime.DRIVEN_TO_STOP]
+    there = stopped & (sign * answers.bend_angle > 0.0)
+    if there.mean() < 0.05:
+        return
+    axes.text(
+        float(np.median(answers.tension_l[there])),
+        float(np.median(answers.tension_s[there])),
+        f'driven to the\nstop towards {side}',
+        ha='center',
+        va='center',
+        bbox={'facecolor': 'white', 'alpha': 0.75, 'edgecolor': 'none', 'pad': 2.0},
+    )

@@ -1,0 +1,145 @@
+"""``tendon-statics plot recording``: a recorded session and what the model says of it."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..physics import JointDesign, Regime
+from ..recordings.replay import INVALID, Replay
+from .figures import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION
+from .options import add_design_option, add_tension_stddev_option, design_from
+from .recording_options import add_recording_options, recording_from, report_damage
+from .replay import add_estimation_options, replay_from
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+SIZE = (7.2, 6.4)
+
+MANY = 5000
+"""Samples above which they are drawn as an image, so that the file stays small"""
+
+REGIME_COLOURS = {
+    Regime.HELD.value: SKY,
+    Regime.EQUILIBRIUM.value: VERMILION,
+    Regime.SLIPPING.value: GREEN,
+    Regime.DRIVEN_TO_STOP.value: ORANGE,
+    Regime.SLACK.value: GREY,
+    INVALID: 'black',
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the figure takes."""
+    add_recording_options(parser)
+    add_design_option(parser)
+    add_estimation_options(parser)
+    add_tension_stddev_option(parser)
+
+
+def draw(drawing: Figure, options: argparse.Namespace) -> int:
+    """Read, replay and draw; return the exit code."""
+    recording = recording_from(options)
+    design = design_from(options)
+    replayed = replay_from(options, design, recording)
+    draw_replay(drawing, design, replayed)
+    return report_damage(recording)
+
+
+def draw_replay(drawing: Figure, design: JointDesign, replayed: Replay) -> None:
+    """Draw tensions, angle, slip margin and regime, one above the other over time."""
+    recording = replayed.recording
+    times = recording.time
+    label = 'time [s]'
+    if times is None:
+        times, label = np.arange(float(len(recording))), 'sample'
+    of_tensions, of_angle, of_margin, of_regime = drawing.subplots(
+        4, sharex=True, height_ratios=(3.0, 4.0, 2.5, 0.6)
+    )
+    of_tensions.plot(times, recording.tension_l, color=BLUE, linewidth=1.2, label='T_l')
+    of_tensions.plot(times, recording.tension_s, color=VERMILION, linewidth=1.2, label='T_s')
+    of_tensions.set_ylabel('tension [N]')
+    _legend(of_tensions)
+
+    _draw_angles(of_angle, times, replayed)
+    stop = np.degrees(design.max_bend_angle)
+    of_angle.set_ylim(-1.35 * stop, 1.35 * stop)
+    of_angle.set_yticks([-stop, 0.0, stop], [f'−{stop:.3g}', '0', f'{stop:.3g}'])
+    of_angle.set_ylabel('bend angle θ [°]')
+    _legend(of_angle)
+
+    of_margin.axhspan(-1.0, 1.0, color='#e6f1f8', label='friction can hold')
+    of_margin.plot(
+        *(times, replayed.slip_margin, '.'),
+        markersize=2.5,
+        color=BLUE,
+        rasterized=len(recording) > MANY,
+    )
+    of_margin.set_ylim(-2.0, 2.0)
+    of_margin.set_ylabel('slip margin')
+    _legend(of_margin)
+
+    _draw_regimes(of_regime, times, replayed)
+    of_regime.set_xlabel(label)
+    drawing.align_ylabels()
+
+
+def _draw_angles(axes: Axes, times: Any, replayed: Replay) -> None:
+    recording = replayed.recording
+    if recording.bend_angle is not None:
+        axes.plot(
+            times, np.degrees(recording.bend_angle), color=GREY, linewidth=4.0, label='measured'
+        )
+    angle = np.degrees(replayed.bend_angle)
+    for where, colour, label in (
+        (replayed.angle_assured, VERMILION, f'estimated ({replayed.estimation})'),
+        (~replayed.angle_assured, 'black', 'estimated, not assured'),
+    ):
+        shown = np.where(where, angle, np.nan)
+        if np.isfinite(shown).any():
+            axes.plot(
+                *(times, shown, '.'),
+                markersize=2.5,
+                color=colour,
+                label=label,
+                rasterized=len(recording) > MANY,
+            )
+
+
+def _draw_regimes(axes: Axes, times: Any, replayed: Replay) -> None:
+    """Draw a strip with the colour of the regime of each sample until the next."""
+    handles = []
+    ends = np.append(times[1:], times[-1])
+    for regime, colour in REGIME_COLOURS.items():
+        where = replayed.regime == regime
+        if not where.any():
+            continue
+        # Runs of one regime are drawn as one bar.
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], where, [False]]).astype(int)))
+        bars = [
+            (times[first], ends[after - 1] - times[first]) for first, after in edges.reshape(-1, 2)
+        ]
+        handles.append(
+            axes.broken_barh(
+                bars, (0.0, 1.0), color=colour, linewidth=0.6, label=regime.replace('_', ' ')
+            )
+        )
+    axes.set_yticks([])
+    axes.grid(visible=False)
+    axes.set_ylabel('regime', rotation=0, ha='right', va='center')
+    axes.legend(
+        handles=handles,
+        loc='upper center',
+        bbox_to_anchor=(0.5, -1.6),
+        ncols=len(handles),
+        frameon=False,
+        handlelength=1.2,
+    )
+
+
+def _legend(axes: Axes) -> None:
+    axes.legend(loc='lower right', bbox_to_anchor=(1.0, 0.97), ncols=3, frameon=False)

@@ -1,0 +1,36 @@
+"""What the figures of one pair of tensions have in common."""
+
+from __future__ import annotations
+
+import argparse
+
+from ..physics import Equilibrium, JointDesign, Regime, paper, solve
+from .options import UsageError, add_design_option, add_tension_options, design_from
+
+
+def add_pair_options(parser: argparse.ArgumentParser) -> None:
+    """Add the two tensions, by default the paper's, and ``--design``."""
+    add_tension_options(parser, defaults=(paper.TENSION_L, paper.TENSION_S))
+    add_design_option(parser)
+
+
+def pair_from(options: argparse.Namespace) -> tuple[JointDesign, Equilibrium]:
+    """Return the design and its answer to the two tensions."""
+    design = design_from(options)
+    equilibrium = solve(design, options.tension_l, options.tension_s)
+    if equilibrium.regime is Regime.SLACK:
+        raise UsageError('there is nothing to draw: a cable is slack, which is outside the model')
+    return design, equilibrium
+
+
+def pair_title(equilibrium: Equilibrium) -> str:
+    """Name the regime and the tensions."""
+    return (
+        f'{equilibrium.regime} at T_l = {equilibrium.tension_l:g} N, '
+        f'T_s = {equilibrium.tension_s:g} N'
+    )
+
+
+def between(start: float, end: float, count: int = 41) -> list[float]:
+    """Return evenly spaced numbers with both ends."""
+    return [start + (end - start) * index / (count - 1) for index in range(count)]

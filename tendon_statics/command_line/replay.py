@@ -1,0 +1,93 @@
+"""``tendon-statics replay``: a recorded session through the model."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+
+from ..output_file import OutputError
+from ..physics import JointDesign
+from ..recordings.bag_output import write_bag
+from ..recordings.recording import Recording
+from ..recordings.replay import ESTIMATIONS, Replay, replay
+from ..recordings.table_output import write_table
+from .options import add_design_option, add_tension_stddev_option, design_from
+from .progress import with_progress
+from .recording_options import add_recording_options, recording_from, report_damage
+from .replay_text import replay_facts
+from .tables import fact_lines
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the verb takes."""
+    add_recording_options(parser)
+    add_design_option(parser)
+    add_estimation_options(parser)
+    add_tension_stddev_option(parser)
+    parser.add_argument(
+        '--output',
+        type=Path,
+        metavar='FILE',
+        help=f'write every sample there; ending: {", ".join(_WRITERS)}',
+    )
+
+
+def add_estimation_options(parser: argparse.ArgumentParser) -> None:
+    """Add what the model is to do with each sample."""
+    parser.add_argument(
+        '--estimation',
+        choices=ESTIMATIONS,
+        default='equilibrium',
+        help='each sample by itself, or with memory, as the node; default: %(default)s',
+    )
+    parser.add_argument(
+        '--initial-bend-angle',
+        type=float,
+        default=0.0,
+        metavar='RAD',
+        help='where a tracked unit is at first, in rad; default: %(default)s',
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Replay, write the samples, print a summary."""
+    write = _writer(options.output)
+    recording = recording_from(options)
+    replayed = replay_from(options, design_from(options), recording)
+    if write is not None:
+        write(options.output, replayed)
+    print(fact_lines(replay_facts(replayed)))
+    return report_damage(recording)
+
+
+def replay_from(options: argparse.Namespace, design: JointDesign, recording: Recording) -> Replay:
+    """Replay a recording as the options ask for."""
+    return replay(
+        design,
+        recording,
+        options.estimation,
+        initial_bend_angle=options.initial_bend_angle,
+        tension_stddev=options.tension_stddev,
+        progress=with_progress,
+    )
+
+
+def _writer(path: Path | None) -> Callable[[Path, Replay], None] | None:
+    """Return what writes to such a file; found before the work, so that none is in vain."""
+    if path is None:
+        return None
+    if path.suffix not in _WRITERS:
+        raise OutputError(f'{path}: a replay is written to a file ending in {", ".join(_WRITERS)}')
+    return _WRITERS[path.suffix]
+
+
+def _write_table(path: Path, replayed: Replay) -> None:
+    write_table(path, replayed.columns())
+
+
+_WRITERS: dict[str, Callable[[Path, Replay], None]] = {
+    '.csv': _write_table,
+    '.parquet': _write_table,
+    '.mcap': write_bag,
+}

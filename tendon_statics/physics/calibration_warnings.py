@@ -1,0 +1,108 @@
+"""What is to be known before fitted values are used, in plain sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .array_roots import Floats
+from .calibration_result import HELD, FittedParameter, ResidualStatistics
+from .design import DesignParameter
+from .identification import Identification
+
+STRONG_CORRELATION = 0.99
+NORMAL_MEDIAN = 0.6745
+"""Median of the absolute value of Gaussian noise, in standard deviations"""
+
+
+def calibration_warnings(
+    ranges: Sequence[tuple[DesignParameter, float, float]],
+    fitted: Sequence[FittedParameter],
+    identification: Identification,
+    residuals: ResidualStatistics,
+    counts: dict[str, int],
+    *,
+    states_are_known: bool,
+) -> list[str]:
+    """Say what keeps the values from being used as they are.
+
+    Parameters
+    ----------
+    ranges : sequence
+        The fitted parameters, each with the ends of the range that was searched, in SI.
+    """
+    found = []
+    equations = residuals.degrees_of_freedom + len(fitted)
+    if residuals.degrees_of_freedom < 0:
+        found.append(
+            f'{equations} equations cannot determine {len(fitted)} parameters: '
+            'record more slips, or fit fewer parameters'
+        )
+    elif residuals.degrees_of_freedom == 0:
+        found.append(
+            'there are as many equations as parameters, so that they are met whatever the data '
+            'are: nothing tests the fit'
+        )
+    for direction in identification.null_directions:
+        found.append(_unidentified([value.name for value in fitted], direction))
+    for (parameter, *ends), value in zip(ranges, fitted, strict=True):
+        found += _doubts(parameter, ends, value)
+    names = [value.name for value in fitted]
+    for i, j in zip(*np.triu_indices(len(names), 1), strict=True):
+        correlation = identification.correlation[i, j]
+        if abs(correlation) > STRONG_CORRELATION:
+            found.append(
+                f'{names[i]} and {names[j]} are correlated by {correlation:+.4f}: the data tell '
+                'a combination of them far better than either; measure one in another way'
+            )
+    if residuals.degrees_of_freedom > 0 and residuals.median > 2.0 * NORMAL_MEDIAN:
+        times = residuals.median / NORMAL_MEDIAN
+        states = (
+            'some states are wrong'
+            if states_are_known
+            else 'not all samples are slipping, as was taken without a state'
+        )
+        found.append(
+            f'the distances are {times:.1f} times what the stated noise explains: '
+            f'the noise is larger, {states}, or the model does not fit'
+        )
+    if residuals.held_violations:
+        found.append(
+            f'{residuals.held_violations} of {counts[HELD]} held samples lie beyond the fitted '
+            'boundary of slip by more than 3 standard deviations'
+        )
+    return found
+
+
+def _unidentified(names: list[str], direction: Floats) -> str:
+    """Name a direction in which the data say nothing, in shares of the start values."""
+    parts = [(n, part) for n, part in zip(names, direction, strict=True) if abs(part) > 1e-3]
+    if len(parts) == 1:
+        return f'{parts[0][0]} is not identifiable: the data do not depend on it'
+    first = parts[0][1]
+    together = ', '.join(f'{name} by {part / first:+.3g} %' for name, part in parts)
+    return (
+        f'{", ".join(name for name, _ in parts[:-1])} and {parts[-1][0]} are not identifiable '
+        f'apart from each other: changing {together} changes nothing in the data; fix one of them'
+    )
+
+
+def _doubts(
+    parameter: DesignParameter, ends: Sequence[float], fitted: FittedParameter
+) -> list[str]:
+    found = []
+    width = parameter.maximum - parameter.minimum
+    for end in ends:
+        if abs(fitted.value - end) < 1e-9 * width:
+            found.append(
+                f'{parameter.name} is at the end of its range, {end:.6g} {parameter.unit}: '
+                'the data ask for a value beyond it'
+            )
+    error = fitted.standard_error
+    if error is not None and error > 0.5 * abs(fitted.value):
+        found.append(
+            f'{parameter.name} is hardly identifiable: its standard error is '
+            f'{100.0 * error / max(abs(fitted.value), 1e-300):.3g} % of its value'
+        )
+    return found

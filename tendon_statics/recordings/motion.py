@@ -1,0 +1,39 @@
+"""Which samples are known to be slipping, from the measured angle itself."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from .errors import RecordingError
+from .recording import Recording
+
+
+def mark_motion(recording: Recording, step: float) -> Recording:
+    """Return a recording with a state for each sample, from the steps of its angle.
+
+    A change of more than `step` between two samples is motion. The sample before a motion is
+    ``slipping``: the unit is still where it was held, with the last tensions before it moved. So
+    it is on the boundary of slip but for one step of the tensions, whatever the motion after it
+    looks like. Samples in motion have the state ``moving``, all others are ``held``.
+
+    Parameters
+    ----------
+    step : float
+        rad; well above the noise of the angle, well below a slip.
+
+    Raises
+    ------
+    RecordingError
+        If there is no angle, or the step is not above 0.
+    """
+    if recording.bend_angle is None:
+        raise RecordingError('there is no measured bend angle in the data')
+    if not step > 0.0:
+        raise RecordingError(f'the step of a motion is {step!r} rad, which must be above 0')
+    moves = np.zeros(len(recording) + 1, dtype=bool)
+    moves[1:-1] = abs(np.diff(recording.bend_angle)) > step
+    before, after = moves[:-1], moves[1:]
+    state = np.select([before, after], ['moving', 'slipping'], 'held')
+    return dataclasses.replace(recording, state=state.tolist())

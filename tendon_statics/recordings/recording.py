@@ -1,0 +1,97 @@
+"""A recorded session: cable tensions and, where they were measured, angle, pressure and state."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .errors import RecordingError
+
+Floats = npt.NDArray[np.float64]
+
+QUANTITIES = ('time', 'tension_l', 'tension_s', 'bend_angle', 'pressure')
+"""What a recording has numbers of; all but the tensions may be missing"""
+
+MOST_NAMED = 3
+"""Damaged places that are named one by one; of more, the rest is counted"""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Recording:
+    """Samples of one unit, in the order of time; SI units, angles in rad.
+
+    All arrays have the shape ``(n,)``. A sample may hold NaN or tensions that the model does not
+    take: it is kept, and whoever uses the recording says what becomes of it.
+    """
+
+    tension_l: Floats
+    """T_l in N"""
+    tension_s: Floats
+    """T_s in N"""
+    bend_angle: Floats | None = None
+    """Measured θ in rad, NaN where there is none; None if it was not recorded"""
+    pressure: Floats | None = None
+    """Measured p in Pa, likewise"""
+    state: Sequence[str] | None = None
+    """``slipping`` or ``held`` where that is known of a sample, else anything"""
+    time: Floats | None = None
+    """s"""
+    time_origin: int = 0
+    """ns of the Unix epoch at which `time` is 0, where that is known"""
+    name: str = 'recording'
+    """Where it comes from, without the folder"""
+    damage: tuple[str, ...] = ()
+    """What of the file could not be read, place by place"""
+
+    def __post_init__(self) -> None:
+        """Take whatever NumPy makes an array of.
+
+        Raises
+        ------
+        RecordingError
+            If the arrays are not of one length.
+        """
+        for quantity in QUANTITIES:
+            values = getattr(self, quantity)
+            if values is not None:
+                values = np.atleast_1d(np.asarray(values, dtype=np.float64))
+                object.__setattr__(self, quantity, values)
+                _check_length(quantity, values, len(self))
+        if self.state is not None:
+            object.__setattr__(self, 'state', list(self.state))
+            _check_length('state', self.state, len(self))
+
+    def __len__(self) -> int:
+        return len(self.tension_l)
+
+    def tensions(self) -> list[tuple[float, float]]:
+        """T_l and T_s of every sample, as plain numbers in N."""
+        return list(zip(self.tension_l.tolist(), self.tension_s.tolist(), strict=True))
+
+    @property
+    def damage_summary(self) -> str:
+        """What could not be read, in one line; empty if all could."""
+        named = '; '.join(self.damage[:MOST_NAMED])
+        more = len(self.damage) - MOST_NAMED
+        return named + (f'; and {more} more such places' if more > 0 else '')
+
+    def whole(self) -> Recording:
+        """Return the recording if all of its file could be read.
+
+        Raises
+        ------
+        RecordingError
+            If not; the text names what could not.
+        """
+        if self.damage:
+            raise RecordingError(f'{self.name}: {self.damage_summary}')
+        return self
+
+
+def _check_length(name: str, values: Sequence[Any] | Floats, length: int) -> None:
+    if len(values) != length:
+        raise RecordingError(f'there are {length} values of tension_l and {len(values)} of {name}')

@@ -1,0 +1,180 @@
+"""Every sample of a recording through the model, as the node would have said it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..physics import JointDesign, StickSlipTracker, TensionError, TrackedState
+from ..physics.batch import solve_batch
+from .recording import Floats, Recording
+
+ESTIMATIONS = ('equilibrium', 'tracking')
+
+CHUNK = 20_000
+"""Samples solved at once, after which progress is shown"""
+
+INVALID = 'invalid'
+"""Regime of a sample that the model does not take"""
+
+Progress = Callable[[Iterable[int]], Iterable[int]]
+"""Wraps an iterable over the beginnings of chunks"""
+
+
+class Replay(NamedTuple):
+    """What the model says of each sample; arrays of shape ``(n,)``, NaN where not determined."""
+
+    recording: Recording
+    estimation: str
+    regime: NDArray[np.str_]
+    bend_angle: Floats
+    """rad"""
+    bend_angle_stddev: Floats
+    pressure: Floats
+    """Pa"""
+    pressure_stddev: Floats
+    slip_margin: Floats
+    angle_assured: NDArray[np.bool_]
+    """False where a cable has been slack, until a stop: a tracked unit may have moved"""
+
+    @property
+    def error(self) -> Floats | None:
+        """Estimated less measured angle in rad, where both are there and the angle is assured."""
+        if self.recording.bend_angle is None:
+            return None
+        error: Floats = np.where(
+            self.angle_assured, self.bend_angle - self.recording.bend_angle, math.nan
+        )
+        return error
+
+    def columns(self) -> dict[str, Floats | NDArray[np.str_] | NDArray[np.bool_]]:
+        """Table with the recorded columns and the estimated ones, by name; SI units."""
+        recorded = self.recording
+        columns = {
+            name: values
+            for name, values in (
+                ('time', recorded.time),
+                ('tension_l', recorded.tension_l),
+                ('tension_s', recorded.tension_s),
+                ('bend_angle', recorded.bend_angle),
+                ('pressure', recorded.pressure),
+                ('state', None if recorded.state is None else np.array(recorded.state)),
+            )
+            if values is not None
+        }
+        return columns | {
+            'regime': self.regime,
+            'estimated_bend_angle': self.bend_angle,
+            'estimated_bend_angle_stddev': self.bend_angle_stddev,
+            'estimated_pressure': self.pressure,
+            'estimated_pressure_stddev': self.pressure_stddev,
+            'slip_margin': self.slip_margin,
+            'angle_assured': self.angle_assured,
+        }
+
+
+def replay(
+    design: JointDesign,
+    recording: Recording,
+    estimation: str = 'equilibrium',
+    *,
+    initial_bend_angle: float = 0.0,
+    tension_stddev: float = 0.01,
+    progress: Progress = iter,
+) -> Replay:
+    """Estimate every sample of a recording.
+
+    Parameters
+    ----------
+    estimation : str
+        ``equilibrium``: each sample by itself, as `solve` does; ``tracking``: with the memory of a
+        `StickSlipTracker`.
+    initial_bend_angle : float
+        Where a tracked unit is at first, in rad.
+    tension_stddev : float
+        Standard deviation of each tension in N.
+    progress : callable
+        Is given the beginnings of the chunks of samples, and passes them on.
+
+    Raises
+    ------
+    BendAngleError
+        If the initial angle lies beyond the stop.
+    """
+    starts = progress(range(0, len(recording), CHUNK))
+    if estimation == 'equilibrium':
+        parts = [_solved(design, recording, start, tension_stddev) for start in starts]
+    else:
+        tracker = StickSlipTracker(design, initial_bend_angle)
+        parts = [_tracked(tracker, recording, start, tension_stddev) for start in starts]
+    regime, numbers, assured = zip(*parts, strict=True)
+    angle, angle_stddev, pressure, pressure_stddev, margin = np.concatenate(numbers, axis=1)
+    return Replay(
+        recording,
+        estimation,
+        np.concatenate(regime),
+        angle,
+        angle_stddev,
+        pressure,
+        pressure_stddev,
+        margin,
+        np.concatenate(assured),
+    )
+
+
+_Part = tuple[NDArray[np.str_], Floats, NDArray[np.bool_]]
+"""Regimes, the five numbers of each sample in rows, and whether the angle is assured"""
+
+
+def _solved(design: JointDesign, recording: Recording, start: int, tension_stddev: float) -> _Part:
+    part = slice(start, start + CHUNK)
+    answers = solve_batch(design, recording.tension_l[part], recording.tension_s[part])
+    side = np.where(answers.bend_angle < 0.0, -1.0, 1.0)
+    numbers = np.stack(
+        [
+            answers.bend_angle,
+            answers.bend_angle_stddev(tension_stddev),
+            answers.pressure,
+            answers.pressure_stddev(tension_stddev),
+            side * (1.0 + answers.residual / answers.normal_force),
+        ]
+    )
+    return answers.regime_names, numbers, np.full(len(side), True)
+
+
+def _tracked(
+    tracker: StickSlipTracker, recording: Recording, start: int, tension_stddev: float
+) -> _Part:
+    regimes, rows, assured = [], [], []
+    part = slice(start, start + CHUNK)
+    for tensions in zip(
+        recording.tension_l[part].tolist(), recording.tension_s[part].tolist(), strict=True
+    ):
+        try:
+            state = tracker.update(*tensions)
+        except TensionError:
+            regimes.append(INVALID)
+            rows.append((math.nan,) * 5)
+            assured.append(False)
+            continue
+        regimes.append(state.regime.value)
+        rows.append((*_estimates(state, tension_stddev), _number(state.slip_margin)))
+        assured.append(state.angle_assured)
+    return np.array(regimes), np.array(rows).reshape(-1, 5).T, np.array(assured)
+
+
+def _estimates(result: TrackedState, tension_stddev: float) -> tuple[float, float, float, float]:
+    return (
+        _number(result.bend_angle),
+        _number(result.bend_angle_stddev(tension_stddev)),
+        _number(result.pressure),
+        _number(result.pressure_stddev(tension_stddev)),
+    )
+
+
+def _number(value: float | None) -> float:
+    return math.nan if value is None else value

@@ -1,0 +1,67 @@
+"""Columns written to CSV, Parquet or NPZ files."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, TextIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..output_file import OutputError, output_file
+from .libraries import needed
+
+Columns = Mapping[str, NDArray[Any]]
+
+
+def write_table(path: Path, columns: Columns) -> None:
+    """Write columns of one length to a ``.csv`` or ``.parquet`` file.
+
+    Raises
+    ------
+    OutputError
+        If the ending is neither, or the file cannot be written.
+    RecordingError
+        If a library is missing.
+    """
+    if path.suffix == '.csv':
+        with (
+            output_file(path) as temporary,
+            temporary.open('w', encoding='utf-8', newline='') as file,
+        ):
+            write_csv(file, columns)
+    elif path.suffix == '.parquet':
+        pa, parquet = needed('pyarrow', 'pyarrow.parquet', purpose='Parquet files')
+        with output_file(path) as temporary:
+            parquet.write_table(pa.table(dict(columns)), temporary)
+    else:
+        raise OutputError(f'{path}: a table is written to a file ending in .csv or .parquet')
+
+
+def write_csv(file: TextIO, columns: Columns) -> None:
+    """Write columns of one length as CSV; NaN is an empty field."""
+    writer = csv.writer(file, lineterminator='\n')
+    writer.writerow(columns)
+    writer.writerows(zip(*(_fields(values) for values in columns.values()), strict=True))
+
+
+def _fields(values: NDArray[Any]) -> list[object]:
+    fields: list[object] = values.tolist()
+    if values.dtype.kind == 'f':
+        return ['' if math.isnan(value) else value for value in values.tolist()]
+    return fields
+
+
+def write_arrays(path: Path, arrays: Columns) -> None:
+    """Write arrays of any shape by name to an ``.npz`` file, compressed.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written.
+    """
+    with output_file(path) as temporary, temporary.open('wb') as file:
+        np.savez_compressed(file, **arrays)  # type: ignore[arg-type]

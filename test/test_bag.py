@@ -1,0 +1,208 @@
+"""Recordings in ROS 2 bags: topics, times, and what of a damaged file is kept."""
+
+import math
+
+import bags
+import numpy as np
+import pytest
+from bags import ORIGIN, write_bag
+
+from tendon_statics.recordings.errors import RecordingError
+from tendon_statics.recordings.load import load_recording
+from tendon_statics.recordings.topics import BagTopics
+
+
+def session(count=10):
+    """Tensions every 10 ms; an angle every 20 ms, recorded 1 ms later."""
+    for index in range(count):
+        time = 0.01 * index
+        yield '/tensions', time, bags.array(1.0, 1.5 + time)
+        if index % 2 == 0:
+            yield '/measured_bend_angle', time + 0.001, bags.number(0.001 * index)
+
+
+@pytest.mark.parametrize('plugin', ['MCAP', 'SQLITE3'])
+@pytest.mark.parametrize('of', ['file', 'folder'])
+def test_tensions_and_the_nearest_angle(tmp_path, plugin, of):
+    file = write_bag(tmp_path / 'bag', session(), plugin)
+    recording = load_recording(file if of == 'file' else file.parent)
+    assert recording.time == pytest.approx(0.01 * np.arange(10))
+    assert recording.time_origin == ORIGIN
+    assert (recording.tension_l == 1.0).all()
+    assert recording.tension_s == pytest.approx(1.5 + recording.time)
+    nearest = [0, 0, 2, 2, 4, 4, 6, 6, 8, 8]
+    assert recording.bend_angle == pytest.approx(0.001 * np.array(nearest))
+    assert recording.damage == ()
+    assert recording.name == (file if of == 'file' else file.parent).name
+
+
+def test_an_angle_farther_away_than_the_tolerance_is_none(tmp_path):
+    file = write_bag(tmp_path / 'bag', session())
+    recording = load_recording(file, BagTopics(max_skew=0.002))
+    assert np.isnan(recording.bend_angle).tolist() == [False, True] * 5
+
+
+def test_pressure_and_state_have_topics_of_their_own(tmp_path):
+    messages = [*session(2), ('/p', 0.0, bags.number(400.0)), ('/state', 0.01, bags.text('held'))]
+    file = write_bag(tmp_path / 'bag', messages)
+    recording = load_recording(file, BagTopics(pressure='p', state='/state', max_skew=0.005))
+    assert recording.pressure[0] == 400.0
+    assert math.isnan(recording.pressure[1])
+    assert recording.state == ['', 'held']
+
+
+def test_a_joint_state_is_read_by_names_and_stamp(tmp_path):
+    messages = [
+        ('/drives', 5.0, bags.joint_state(['x', 's', 'l'], effort=[9.0, 2.0, 1.0], time=0.2)),
+        ('/drives', 6.0, bags.joint_state(['l', 's'], effort=[1.1, 2.1], time=0.1)),
+        ('/drives', 7.0, bags.joint_state(['l'], effort=[1.2], time=0.3)),
+        ('/camera', 9.0, bags.joint_state(['tip', 'base'], position=[0.3, 0.4], time=0.1)),
+    ]
+    file = write_bag(tmp_path / 'bag', messages)
+    topics = BagTopics(
+        tensions=('drives',), cable_names=('l', 's'), bend_angle='camera', joint_name='tip'
+    )
+    recording = load_recording(file, topics)
+    assert recording.time == pytest.approx([0.0, 0.1, 0.2])
+    assert recording.time_origin == ORIGIN + 100_000_000
+    assert recording.tensions()[:2] == [(1.1, 2.1), (1.0, 2.0)]
+    assert np.isnan(recording.tension_s).tolist() == [False, False, True]
+    assert recording.bend_angle[0] == 0.3
+    with pytest.raises(RecordingError, match='tip, base; name one'):
+        load_recording(file, BagTopics(('drives',), ('l', 's'), bend_angle='camera'))
+
+
+@pytest.mark.parametrize(('component', 'tension'), [('x', 3.0), ('z', 4.0), ('norm', 5.0)])
+def test_a_pair_of_wrenches_is_joined_by_stamp(tmp_path, component, tension):
+    messages = []
+    for index in range(5):
+        time = 0.1 * index
+        messages.append(('/cell_l', time, bags.wrench(3.0, 0.0, 4.0, time)))
+        if index != 3:
+            late = time + 0.005
+            messages.append(('/cell_s', time, bags.wrench(6.0, 0.0, 8.0, late)))
+    file = write_bag(tmp_path / 'bag', messages)
+    recording = load_recording(
+        file, BagTopics(tensions=('cell_l', 'cell_s'), force_component=component)
+    )
+    assert recording.tension_l == pytest.approx([tension] * 5)
+    assert recording.tension_s[[0, 1, 2, 4]] == pytest.approx([2.0 * tension] * 4)
+    assert math.isnan(recording.tension_s[3])
+
+
+def test_the_estimators_own_estimates_hold_tensions(tmp_path):
+    """Their type is not one of ROS's own; the bag holds its definition."""
+    file = write_bag(tmp_path / 'bag', [('/estimate', 3.0, bags.estimate(1.0, 2.0, time=0.5))])
+    recording = load_recording(file, BagTopics(tensions=('estimate',)))
+    assert recording.tensions() == [(1.0, 2.0)]
+    assert recording.time_origin == ORIGIN + 500_000_000
+    assert recording.bend_angle is None
+
+
+def test_a_message_of_another_length_is_kept_as_nan(tmp_path):
+    messages = [('/tensions', 0.0, bags.array(1.0, 2.0)), ('/tensions', 0.1, bags.array(1.0))]
+    recording = load_recording(write_bag(tmp_path / 'bag', messages))
+    assert len(recording) == 2
+    assert math.isnan(recording.tension_l[1])
+    assert recording.damage == ()
+
+
+@pytest.mark.parametrize(
+    ('topics', 'named'),
+    [
+        (BagTopics(tensions=('t',)), r'no topic /t; there are: /measured_bend_angle \(std_msgs'),
+        (BagTopics(bend_angle='b'), 'no topic /b'),
+        (BagTopics(tensions=('measured_bend_angle',)), 'is a std_msgs/msg/Float64; .* is needed'),
+        (BagTopics(tensions=('tensions', 'tensions')), 'WrenchStamped is needed'),
+        (BagTopics(tensions=()), '0 topics of tensions'),
+    ],
+)
+def test_a_topic_that_is_not_there_is_named_with_those_that_are(tmp_path, topics, named):
+    file = write_bag(tmp_path / 'bag', session())
+    with pytest.raises(RecordingError, match=f'^{file}: .*{named}'):
+        load_recording(file, topics)
+
+
+@pytest.mark.parametrize(
+    ('plugin', 'share'),
+    [('MCAP', 0.75), ('MCAP', 0.99), ('MCAP', 0.9999), ('SQLITE3', 0.97)],
+)
+def test_of_a_truncated_file_the_beginning_is_read(tmp_path, plugin, share):
+    file = write_bag(tmp_path / 'bag', session(30000), plugin)
+    whole = load_recording(file)
+    content = file.read_bytes()
+    file.write_bytes(content[: int(share * len(content))])
+    recording = load_recording(file)
+    assert 0.3 * len(whole) < len(recording) <= len(whole)
+    assert recording.tension_s.tolist() == whole.tension_s[: len(recording)].tolist()
+    assert 'truncated or damaged' in recording.damage_summary
+
+
+def test_a_damaged_chunk_is_named_and_those_after_it_are_read(tmp_path):
+    from mcap.reader import make_reader
+    from mcap.writer import Writer
+
+    file = tmp_path / 'run.mcap'
+    with file.open('wb') as stream:
+        writer = Writer(stream, chunk_size=2000)
+        writer.start(profile='ros2')
+        kind = 'std_msgs/msg/Float64MultiArray'
+        definition, _ = bags.STORE.generate_msgdef(kind, ros_version=2)
+        schema = writer.register_schema(kind, 'ros2msg', definition.encode())
+        channel = writer.register_channel('/tensions', 'cdr', schema)
+        for index in range(500):
+            data = bytes(bags.STORE.serialize_cdr(bags.array(1.0, float(index)), kind))
+            writer.add_message(channel, ORIGIN + index, data, ORIGIN + index)
+        writer.finish()
+    content = bytearray(file.read_bytes())
+    with file.open('rb') as stream:
+        chunks = make_reader(stream).get_summary().chunk_indexes
+    content[chunks[1].chunk_start_offset + 100] ^= 0xFF
+    file.write_bytes(content)
+    recording = load_recording(file)
+    assert 400 < len(recording) < 500
+    assert recording.tension_s[[0, -1]].tolist() == [0.0, 499.0]
+    assert 'a part at byte' in recording.damage_summary
+
+
+def test_in_a_folder_a_file_that_is_no_bag_is_named_and_the_others_are_read(tmp_path):
+    file = write_bag(tmp_path / 'bag', session())
+    (file.parent / 'other.mcap').write_bytes(b'')
+    recording = load_recording(file.parent)
+    assert len(recording) == 10
+    assert recording.damage == ('other.mcap: it is not an MCAP file',)
+
+
+@pytest.mark.parametrize('ending', ['mcap', 'db3'])
+def test_what_is_no_bag_is_named(tmp_path, ending):
+    (tmp_path / 'folder').mkdir()
+    file = tmp_path / f'run.{ending}'
+    for content in (b'', b'\x89MCAP0', b'no bag'):
+        file.write_bytes(content)
+        with pytest.raises(RecordingError, match=f'^{file}: '):
+            load_recording(file)
+    with pytest.raises(RecordingError, match='missing'):
+        load_recording(tmp_path / f'missing.{ending}')
+    with pytest.raises(RecordingError, match='so no bag'):
+        load_recording(tmp_path / 'folder')
+
+
+def test_a_library_that_is_missing_is_named_with_what_to_install(tmp_path, monkeypatch):
+    import sys
+
+    file = write_bag(tmp_path / 'bag', session())
+    monkeypatch.setitem(sys.modules, 'mcap.stream_reader', None)
+    with pytest.raises(RecordingError, match='ROS bags need mcap: pip install mcap'):
+        load_recording(file)
+
+
+def test_a_library_that_does_not_fit_is_named_with_its_own_reason(tmp_path, monkeypatch):
+    from tendon_statics.recordings import libraries
+
+    def refuse(_module):
+        raise ImportError('it needs\nanother version')
+
+    file = write_bag(tmp_path / 'bag', session())
+    monkeypatch.setattr(libraries, 'import_module', refuse)
+    with pytest.raises(RecordingError, match='cannot be loaded: it needs another version'):
+        load_recording(file)

@@ -1,0 +1,99 @@
+"""Recordings in CSV files: columns, units, and what of a damaged file is kept."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tendon_statics.installed_files import installed_config
+from tendon_statics.recordings.errors import RecordingError
+from tendon_statics.recordings.load import load_recording
+
+
+@pytest.fixture
+def file(tmp_path):
+    def write(text):
+        path = tmp_path / 'run.csv'
+        path.write_text(text, encoding='utf-8')
+        return path
+
+    return write
+
+
+def test_columns_are_found_by_name_and_comments_are_left_alone(file):
+    recording = load_recording(
+        file(
+            '# a run\ntime, tension_s ,note,tension_l\n\n0.0,2.0,a,1.0\n# pause\n0.1,nan,,-1e-3\n'
+        )
+    )
+    assert recording.time.tolist() == [0.0, 0.1]
+    assert recording.tension_l.tolist() == [1.0, -0.001]
+    assert recording.tension_s[0] == 2.0
+    assert math.isnan(recording.tension_s[1])
+    assert recording.bend_angle is recording.pressure is recording.state is None
+    assert recording.damage == ()
+
+
+def test_units_in_brackets_are_turned_into_si(file):
+    recording = load_recording(
+        file(
+            'time [ms],tension_l [mN],tension_s[kgf],bend_angle [deg],pressure [ kPa ],state\n'
+            '500,1000,1,180,0.4,held\n750,,1,,,\n'
+        )
+    )
+    assert recording.time.tolist() == [0.5, 0.75]
+    assert recording.tension_l[0] == 1.0
+    assert recording.tension_s[0] == 9.80665
+    assert recording.bend_angle[0] == pytest.approx(math.pi, rel=1e-15)
+    assert recording.pressure[0] == 400.0
+    assert recording.state == ['held', '']
+    assert np.isnan([recording.tension_l[1], recording.bend_angle[1], recording.pressure[1]]).all()
+
+
+@pytest.mark.parametrize(
+    ('text', 'named'),
+    [
+        ('', 'no column tension_l'),
+        ('tension_l,t\n1,2\n', 'no column tension_s.*there are: tension_l, t'),
+        ('tension_l,tension_s\n', 'no row'),
+        ('tension_l,tension_s\n1,x\n', "no row.*line 2, '1,x'"),
+        ('tension_l [lbf],tension_s\n1,2\n', "tension_l is 'lbf'.* N, mN"),
+        ('tension_l,tension_s,bend_angle_deg\n1,2,3\n', r'in brackets, bend_angle \[deg\]'),
+        ('tension_l,tension_s,tension_l [mN]\n1,2,3\n', 'two columns of tension_l'),
+    ],
+)
+def test_a_file_without_a_recording_is_named_with_the_reason(file, text, named):
+    path = file(text)
+    with pytest.raises(RecordingError, match=f'^{path}: .*{named}'):
+        load_recording(path)
+
+
+@pytest.mark.parametrize('line', ['1,x', '1', '1,2,3', '"1,2'])
+def test_a_damaged_line_is_named_and_the_rest_is_kept(file, line):
+    recording = load_recording(file(f'tension_l,tension_s\n1,2\n{line}\n3,4\n'))
+    assert recording.tensions() == [(1.0, 2.0), (3.0, 4.0)]
+    (damage,) = recording.damage
+    assert damage.startswith('line 3, ')
+    with pytest.raises(RecordingError, match=r'run\.csv: line 3'):
+        recording.whole()
+
+
+def test_of_much_damage_a_part_is_named_and_the_rest_is_counted(file):
+    recording = load_recording(file('tension_l,tension_s\n1,2\n' + 'x\n' * 10))
+    assert recording.damage_summary.count('line') == 3
+    assert recording.damage_summary.endswith('and 7 more such places')
+
+
+def test_a_file_that_cannot_be_read_is_named(tmp_path):
+    with pytest.raises(RecordingError, match='cannot be read: No such file'):
+        load_recording(tmp_path / 'missing.csv')
+    binary = tmp_path / 'binary.csv'
+    binary.write_bytes(b'\xff\xfe')
+    with pytest.raises(RecordingError, match='not a text file'):
+        load_recording(binary)
+    with pytest.raises(RecordingError, match=r'run\.txt: .*\.parquet'):
+        load_recording(tmp_path / 'run.txt')
+
+
+def test_the_demo_holds_the_published_case():
+    assert (1.0, 2.0) in load_recording(installed_config('demo_tensions.csv')).whole().tensions()

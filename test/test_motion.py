@@ -1,0 +1,35 @@
+"""`mark_motion`: states from the measured angle."""
+
+import math
+
+import pytest
+
+from tendon_statics import Recording, RecordingError
+from tendon_statics.recordings.motion import mark_motion
+
+
+def states(*angles):
+    ones = [1.0] * len(angles)
+    return mark_motion(Recording(ones, ones, list(angles)), 0.1).state
+
+
+def test_the_sample_before_a_motion_is_slipping_and_rest_is_held():
+    found = states(0.0, 0.01, 0.0, 0.3, 0.5, 0.5, 0.49)
+    assert found == ['held', 'held', 'slipping', 'moving', 'moving', 'held', 'held']
+
+
+def test_each_motion_has_a_beginning_of_its_own():
+    found = states(0.0, -0.5, -0.5, 0.2, 0.2)
+    assert found == ['slipping', 'moving', 'slipping', 'moving', 'held']
+
+
+def test_a_missing_angle_is_no_motion():
+    assert states(0.0, math.nan, 0.5, 0.5) == ['held'] * 4
+    assert states(0.0) == ['held']
+
+
+def test_without_an_angle_or_a_step_there_is_nothing_to_mark():
+    with pytest.raises(RecordingError, match='no measured bend angle'):
+        mark_motion(Recording([1.0], [1.0]), 0.1)
+    with pytest.raises(RecordingError, match='step of a motion is nan'):
+        mark_motion(Recording([1.0], [1.0], [0.0]), math.nan)

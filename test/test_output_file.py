@@ -1,0 +1,56 @@
+"""`output_file`: an output appears whole or not at all."""
+
+import os
+import stat
+from pathlib import Path
+
+import pytest
+
+from tendon_statics.output_file import OutputError, output_file
+
+
+def write(path, fail=False):
+    with output_file(path) as temporary:
+        temporary.write_text('half')
+        if fail:
+            raise RuntimeError('halfway')
+
+
+def test_it_appears_only_when_all_is_written(tmp_path):
+    path = tmp_path / 'out.csv'
+    with output_file(path) as temporary:
+        temporary.write_text('new')
+        assert not path.exists()
+        assert temporary.suffix == path.suffix
+    assert path.read_text() == 'new'
+    assert list(tmp_path.iterdir()) == [path]
+    umask = os.umask(0)
+    os.umask(umask)
+    assert stat.S_IMODE(path.stat().st_mode) == 0o666 & ~umask
+
+
+def test_what_fails_leaves_the_old_file_as_it_was(tmp_path):
+    path = tmp_path / 'out.csv'
+    path.write_text('old')
+    path.chmod(0o600)
+    with pytest.raises(RuntimeError, match='halfway'):
+        write(path, fail=True)
+    assert path.read_text() == 'old'
+    assert list(tmp_path.iterdir()) == [path]
+    with output_file(path) as temporary:
+        temporary.write_text('new')
+    assert stat.S_IMODE(path.stat().st_mode) == 0o600
+
+
+def test_a_link_stays_a_link(tmp_path):
+    (tmp_path / 'link.csv').symlink_to(tmp_path / 'out.csv')
+    with output_file(tmp_path / 'link.csv') as temporary:
+        temporary.write_text('new')
+    assert (tmp_path / 'link.csv').is_symlink()
+    assert (tmp_path / 'out.csv').read_text() == 'new'
+
+
+@pytest.mark.parametrize('path', ['/no/such/folder/out.csv', '/dev/null', '/tmp'])
+def test_what_cannot_be_written_is_named(path):
+    with pytest.raises(OutputError, match=f'^{path}: it cannot be written'):
+        write(Path(path))

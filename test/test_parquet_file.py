@@ -1,0 +1,78 @@
+"""Recordings in Parquet files."""
+
+import math
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from pyarrow import parquet
+
+from tendon_statics.recordings.errors import RecordingError
+from tendon_statics.recordings.load import load_recording
+
+
+@pytest.fixture
+def file(tmp_path):
+    def write(columns, **options):
+        path = tmp_path / 'run.parquet'
+        parquet.write_table(pa.table(columns), path, **options)
+        return path
+
+    return write
+
+
+def test_columns_units_and_missing_values(file):
+    recording = load_recording(
+        file(
+            {
+                'state': ['held', None, 'slipping'],
+                'tension_s': [2, 3, 4],
+                'tension_l [mN]': [1000.0, None, 3000.0],
+                'bend_angle [deg]': pa.array([90.0, 45.0, None], pa.float32()),
+                'note': ['a', 'b', 'c'],
+            }
+        )
+    )
+    assert recording.tension_s.tolist() == [2.0, 3.0, 4.0]
+    assert recording.tension_l[::2].tolist() == [1.0, 3.0]
+    assert recording.bend_angle[0] == pytest.approx(0.5 * math.pi)
+    assert np.isnan([recording.tension_l[1], recording.bend_angle[2]]).all()
+    assert recording.state == ['held', '', 'slipping']
+
+
+@pytest.mark.parametrize(
+    ('columns', 'named'),
+    [
+        ({'tension_l': [1.0]}, 'no column tension_s'),
+        ({'tension_l': [1.0], 'tension_s': ['a']}, 'tension_s holds no numbers'),
+        (
+            {'tension_l': pa.array([], pa.float64()), 'tension_s': pa.array([], pa.float64())},
+            'row',
+        ),
+    ],
+)
+def test_a_file_without_a_recording_is_named_with_the_reason(file, columns, named):
+    path = file(columns)
+    with pytest.raises(RecordingError, match=f'^{path}: .*{named}'):
+        load_recording(path)
+
+
+def test_without_its_end_nothing_can_be_read(file):
+    path = file({'tension_l': [1.0], 'tension_s': [2.0]})
+    path.write_bytes(path.read_bytes()[:-10])
+    with pytest.raises(RecordingError, match='cannot be read as Parquet') as caught:
+        load_recording(path)
+    assert '\n' not in str(caught.value)
+
+
+def test_a_damaged_row_group_is_named_and_the_others_are_kept(file):
+    tension = np.linspace(1.0, 2.0, 3000)
+    path = file({'tension_l': tension, 'tension_s': tension}, row_group_size=1000)
+    content = bytearray(path.read_bytes())
+    second = parquet.ParquetFile(path).metadata.row_group(1).column(0)
+    start = second.dictionary_page_offset
+    content[start : start + 20] = b'\xff' * 20
+    path.write_bytes(content)
+    recording = load_recording(path)
+    assert len(recording) == 2000
+    assert recording.damage_summary.startswith('rows 1000 to 1999: ')

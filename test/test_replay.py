@@ -1,0 +1,174 @@
+"""`replay` and its verb: every sample as `solve` and the tracker answer it."""
+
+import csv
+import math
+
+import bags
+import numpy as np
+import pytest
+from bags import ORIGIN, write_bag
+from designs import PRELIMINARY
+from programs import assert_refused, run
+from pyarrow import parquet
+
+from tendon_statics import Recording, TensionError, solve
+from tendon_statics.installed_files import installed_config
+from tendon_statics.physics import StickSlipTracker, slip_margin
+from tendon_statics.recordings import replay as replay_module
+from tendon_statics.recordings.load import load_recording
+from tendon_statics.recordings.replay import replay
+
+DEMO = installed_config('demo_tensions.csv')
+
+
+@pytest.fixture
+def walk():
+    """Tensions over all regimes, with invalid and slack ones between them."""
+    rng = np.random.default_rng(1)
+    tensions = rng.uniform(0.2, 3.0, (200, 2))
+    tensions[::2] = rng.choice([[1.0, 2.0], [2.0, 1.0], [1.0, 1.97]], 100)
+    tensions[5], tensions[50], tensions[51] = (math.nan, 1.0), (0.0, 1.0), (0.05, 0.05)
+    return Recording(*tensions.T, bend_angle=np.zeros(200))
+
+
+@pytest.mark.parametrize('chunk', [7, 1000])
+def test_each_sample_by_itself_is_as_solve_answers(walk, monkeypatch, chunk):
+    monkeypatch.setattr(replay_module, 'CHUNK', chunk)
+    replayed = replay(PRELIMINARY, walk, tension_stddev=0.02)
+    for index, tensions in enumerate(walk.tensions()):
+        try:
+            answer = solve(PRELIMINARY, *tensions)
+        except TensionError:
+            assert replayed.regime[index] == 'invalid'
+            assert math.isnan(replayed.bend_angle[index])
+            continue
+        assert replayed.regime[index] == answer.regime.value
+        if answer.bend_angle is None:
+            assert math.isnan(replayed.bend_angle[index])
+            assert math.isnan(replayed.slip_margin[index])
+            continue
+        assert replayed.bend_angle[index] == pytest.approx(answer.bend_angle, abs=1e-9)
+        assert replayed.pressure[index] == pytest.approx(answer.pressure, rel=1e-9)
+        assert replayed.bend_angle_stddev[index] == pytest.approx(answer.bend_angle_stddev(0.02))
+        assert replayed.pressure_stddev[index] == pytest.approx(answer.pressure_stddev(0.02))
+        margin = slip_margin(PRELIMINARY, *tensions, answer.bend_angle)
+        assert replayed.slip_margin[index] == pytest.approx(margin, abs=1e-6)
+    assert replayed.error[0] == replayed.bend_angle[0]
+
+
+@pytest.mark.parametrize('chunk', [7, 1000])
+def test_with_memory_each_sample_is_as_the_tracker_answers(walk, monkeypatch, chunk):
+    monkeypatch.setattr(replay_module, 'CHUNK', chunk)
+    replayed = replay(PRELIMINARY, walk, 'tracking', initial_bend_angle=0.1)
+    tracker = StickSlipTracker(PRELIMINARY, 0.1)
+    for index, tensions in enumerate(walk.tensions()):
+        try:
+            state = tracker.update(*tensions)
+        except TensionError:
+            assert replayed.regime[index] == 'invalid'
+            assert not replayed.angle_assured[index]
+            continue
+        assert replayed.regime[index] == state.regime.value
+        assert replayed.angle_assured[index] == state.angle_assured
+        if state.bend_angle is not None:
+            assert replayed.bend_angle[index] == state.bend_angle
+            assert replayed.slip_margin[index] == state.slip_margin
+    unsure = np.isfinite(replayed.bend_angle) & ~replayed.angle_assured
+    assert np.isnan(replayed.error[unsure]).all()
+
+
+def test_the_verb_sums_up_regimes_and_error(tmp_path):
+    path = tmp_path / 'run.csv'
+    path.write_text(
+        'time,tension_l,tension_s,bend_angle [deg]\n'
+        '0,1,2,16.14\n0.1,1,3,31\n0.2,1,1.5,0\n0.3,nan,1,\n0.4,0,1,0\n'
+    )
+    done = run('replay', path)
+    assert (done.returncode, done.stderr) == (0, '')
+    for named in (
+        *('run.csv: 5 samples', '10 Hz over 0.4 s', 'held 1 (20 %)', 'invalid 1', 'slack 1'),
+        *('determined in 2 samples', 'root mean square 1 deg', 'in 2 samples'),
+    ):
+        assert named in done.stdout
+    done = run('replay', path, '--estimation', 'tracking', '--initial-bend-angle', '0.1')
+    assert 'estimation    tracking' in done.stdout
+
+
+@pytest.mark.parametrize('ending', ['csv', 'parquet'])
+def test_the_verb_writes_every_sample(tmp_path, ending):
+    output = tmp_path / f'out.{ending}'
+    assert run('replay', DEMO, '--output', output).returncode == 0
+    replayed = replay(PRELIMINARY, load_recording(DEMO))
+    if ending == 'csv':
+        rows = list(csv.DictReader(output.read_text().splitlines()))
+        assert list(rows[0]) == list(replayed.columns())
+        angles = [float(row['estimated_bend_angle'] or 'nan') for row in rows]
+        regimes = [row['regime'] for row in rows]
+    else:
+        table = parquet.read_table(output)
+        assert table.column_names == list(replayed.columns())
+        angles = table['estimated_bend_angle'].to_pylist()
+        regimes = table['regime'].to_pylist()
+    assert regimes == replayed.regime.tolist()
+    assert angles == pytest.approx(replayed.bend_angle.tolist(), nan_ok=True)
+    # What was estimated is not taken for measured when the output is read again.
+    assert load_recording(output).bend_angle is None
+
+
+def test_the_verb_writes_a_bag_that_other_readers_take(tmp_path):
+    from rosbags.highlevel import AnyReader
+
+    file = write_bag(
+        tmp_path / 'bag',
+        [
+            ('/tensions', 0.0, bags.array(1.0, 2.0)),
+            ('/measured_bend_angle', 0.0, bags.number(0.25)),
+            ('/tensions', 0.5, bags.array(1.0, 1.5)),
+            ('/tensions', 1.0, bags.array(math.nan, 1.5)),
+        ],
+    )
+    output = tmp_path / 'out.mcap'
+    assert run('replay', file, '--output', output).returncode == 0
+    messages = []
+    with AnyReader([output]) as reader:
+        for connection, time, data in reader.messages():
+            message = reader.deserialize(data, connection.msgtype)
+            messages.append((connection.topic, (time - ORIGIN) * 1e-9, message.data))
+    of = {topic: [m[1:] for m in messages if m[0] == topic] for topic, *_ in messages}
+    assert [regime for _, regime in of['/replay/regime']] == ['equilibrium', 'held', 'invalid']
+    ((time, angle),) = of['/replay/bend_angle']
+    assert time == 0.0
+    assert math.degrees(angle) == pytest.approx(17.14, abs=1e-4)
+    assert len(of['/replay/joint_pressure']) == len(of['/replay/slip_margin']) == 1
+    again = load_recording(output)
+    assert again.time.tolist() == [0.0, 0.5, 1.0]
+    assert again.bend_angle[0] == 0.25
+    assert again.tensions()[1] == (1.0, 1.5)
+
+
+def test_of_a_truncated_recording_the_beginning_is_replayed_and_the_rest_is_named(tmp_path):
+    messages = (('/tensions', 0.01 * i, bags.array(1.0, 1.5)) for i in range(30000))
+    file = write_bag(tmp_path / 'bag', messages)
+    file.write_bytes(file.read_bytes()[:-2000])
+    output = tmp_path / 'out.csv'
+    done = run('replay', file, '--output', output)
+    assert done.returncode == 1
+    assert done.stderr.count('\n') == 1
+    assert 'not all of it could be read' in done.stderr
+    assert 'bag.mcap: ' in done.stdout
+    assert len(output.read_text().splitlines()) > 10000
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'named'),
+    [
+        (['missing.mcap'], 'missing.mcap: it cannot be read'),
+        ([DEMO, '--output', 'out.doc'], '.csv, .parquet, .mcap'),
+        ([DEMO, '--output', '/no/such/folder/out.csv'], 'cannot be written'),
+        ([DEMO, '--output', 'out.mcap'], 'needs the time of every sample'),
+        ([DEMO, '--estimation', 'guessing'], 'guessing'),
+        ([DEMO, '--estimation', 'tracking', '--initial-bend-angle', '3'], 'bend_angle is 3.0'),
+    ],
+)
+def test_an_error_is_one_line(arguments, named):
+    assert_refused(run('replay', *arguments), named)

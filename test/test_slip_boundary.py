@@ -1,0 +1,82 @@
+"""`boundary_distance` against the scalar physics, and its noise against finite differences."""
+
+import math
+
+import numpy as np
+import pytest
+from designs import PRELIMINARY, cases
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from slips import TRUTH, slipping_samples
+
+from tendon_statics.physics import slip_margin
+from tendon_statics.physics.slip_boundary import Noise, boundary_distance
+
+NOISE = Noise(0.01, math.radians(0.5), 8.0)
+
+
+def distance(design, tension_l, tension_s, bend_angle, pressure=math.nan, noise=NOISE):
+    arrays = (
+        np.atleast_1d(np.asarray(value, dtype=float))
+        for value in (tension_l, tension_s, bend_angle, pressure)
+    )
+    return boundary_distance(design, *arrays, noise)
+
+
+@given(cases(), st.floats(-1.0, 1.0))
+def test_the_excess_is_what_the_slip_margin_lacks(case, share):
+    """|M| / (μ r) = |margin| N_f, so the excess is (|margin| − 1) N_f."""
+    design, tension_l, tension_s = case
+    angle = share * design.max_bend_angle
+    margin = slip_margin(design, tension_l, tension_s, angle)
+    assume(margin != 0.0)
+    got = distance(design, tension_l, tension_s, angle)
+    moment = (tension_s - tension_l) * (design.ball_radius + design.cable_offset)
+    moment += design.weight * design.com_distance * math.sin(angle)
+    asked = abs(moment) / (design.friction_coefficient * design.ball_radius)
+    total = tension_l + tension_s
+    assert got.excess[0] == pytest.approx(asked - asked / abs(margin), abs=1e-7 * total)
+    assert got.side[0] == math.copysign(1.0, margin)
+
+
+def test_on_the_boundary_both_distances_are_zero():
+    tension_l, tension_s, angle, pressure = slipping_samples(50, np.random.default_rng(1)).T
+    got = distance(TRUTH, tension_l, tension_s, angle, pressure)
+    assert got.excess == pytest.approx(np.zeros(50), abs=1e-10)
+    assert got.pressure_standardised == pytest.approx(np.zeros(50), abs=1e-8)
+
+
+def test_the_noise_is_that_of_tensions_angle_and_pressure_to_first_order():
+    """Against the covariance of e and q from finite differences."""
+    samples = slipping_samples(20, np.random.default_rng(2))
+    samples[:, 3] += 20.0  # off the boundary, so that q is not zero
+    samples[:, 1] *= 1.02
+    tiny = Noise(1e9, 0.0, 0.0)  # only the excess is looked at in the differences
+
+    def equations(row):
+        got = distance(TRUTH, *row, noise=tiny)
+        moment_force = (row[1] - row[0]) * (TRUTH.ball_radius + TRUTH.cable_offset)
+        moment_force += TRUTH.weight * TRUTH.com_distance * math.sin(row[2])
+        moment_force /= TRUTH.friction_coefficient * TRUTH.ball_radius
+        limit = abs(moment_force) - got.excess[0]
+        return np.array([got.excess[0], row[3] * TRUTH.contact_area - limit])
+
+    variances = np.array([NOISE.tension, NOISE.tension, NOISE.bend_angle, NOISE.pressure]) ** 2
+    for row in samples:
+        columns = []
+        for index, step in enumerate((1e-6, 1e-6, 1e-6, 1e-3)):
+            change = np.zeros(4)
+            change[index] = step
+            columns.append((equations(row + change) - equations(row - change)) / (2.0 * step))
+        gradients = np.array(columns).T
+        covariance = gradients * variances @ gradients.T
+        whitened = np.linalg.solve(np.linalg.cholesky(covariance), equations(row))
+        got = distance(TRUTH, *row)
+        assert got.standardised[0] == pytest.approx(whitened[0], rel=1e-5)
+        assert got.pressure_standardised[0] == pytest.approx(whitened[1], rel=1e-5)
+
+
+def test_where_there_is_no_friction_force_there_is_no_distance():
+    got = distance(PRELIMINARY, [0.05, 1.0], [0.05, 2.0], [0.0, 0.1])
+    assert np.isnan(got.standardised).tolist() == [True, False]
+    assert np.isnan(got.pressure_standardised).all()

@@ -1,0 +1,75 @@
+"""One pair of tensions: `solve` beside a NumPy port, and beside C."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tendon_statics import default_design_path, load_design, solve
+from tendon_statics.physics import paper
+
+from . import numpy_port
+from .rows import Row, at_least, at_most
+from .timing import best_times
+from .yardstick import Yardstick
+
+NOISE = 0.002
+"""Standard deviation in N of the tensions around the published ones"""
+
+
+def rows() -> list[Row]:
+    """Measure."""
+    design = load_design(default_design_path())
+    return [_all_fields(design), _angle_and_pressure(design)]
+
+
+def _all_fields(design) -> Row:
+    case = (design, paper.TENSION_L, paper.TENSION_S)
+    answer, port = solve(*case), numpy_port.solve(*case)
+    if abs(answer.bend_angle - port[0]) > 1e-9 or abs(answer.pressure / port[1] - 1.0) > 1e-9:
+        raise RuntimeError(f'solve says {answer}, the NumPy port {port}')
+    ours, theirs = best_times(
+        [
+            lambda: [solve(*case).as_dict() for _ in range(20)],
+            lambda: [numpy_port.solve(*case) for _ in range(2)],
+        ],
+        rounds=400,
+    )
+    return at_least(
+        'one `solve`, published case, all fields',
+        'NumPy port with `scipy.optimize.bisect`',
+        (theirs / 2) / (ours / 20),
+        15.0,
+    )
+
+
+def _angle_and_pressure(design) -> Row:
+    # As from a sensor: no two pairs alike, or the processor learns the one way of the branches.
+    draw = np.random.default_rng(1)
+    pairs = [paper.TENSION_L, paper.TENSION_S] + NOISE * draw.standard_normal((4000, 2))
+    yardstick = Yardstick(design)
+    works = []
+    for block in np.split(pairs, 50):
+        tension_l, tension_s = (np.ascontiguousarray(column) for column in block.T)
+        works += [_python_work(design, block.tolist()), _c_work(yardstick, tension_l, tension_s)]
+    times = best_times(works, rounds=30)
+    return at_most(
+        'one `solve`, angle and pressure only',
+        'the same bisection in C, -O3',
+        sum(times[::2]) / sum(times[1::2]),
+        12.0,
+    )
+
+
+def _python_work(design, pairs):
+    def work() -> float:
+        total = 0.0
+        for tension_l, tension_s in pairs:
+            answer = solve(design, tension_l, tension_s)
+            total += answer.bend_angle + answer.pressure
+        return total
+
+    return work
+
+
+def _c_work(yardstick, tension_l, tension_s):
+    return lambda: yardstick.solve_each(tension_l, tension_s)

@@ -1,0 +1,37 @@
+"""How long it takes to get going, beside loading NumPy."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+
+from .rows import Row, at_most
+from .timing import best_times
+
+ROUNDS = 25
+
+
+def rows() -> list[Row]:
+    """Measure."""
+    program = shutil.which('tendon-statics')
+    if program is None:
+        raise RuntimeError('there is no program tendon-statics: run `make setup`')
+    python = sys.executable
+    numpy, physics, solve = best_times(
+        [
+            lambda: _run(python, '-c', 'import numpy'),
+            lambda: _run(python, '-c', 'import tendon_statics.physics'),
+            lambda: _run(program, 'solve', '--tension-l', '1', '--tension-s', '2'),
+        ],
+        ROUNDS,
+    )
+    against = '`python -c "import numpy"`'
+    return [
+        at_most('`import tendon_statics.physics`, a process', against, physics / numpy, 1.5),
+        at_most('`tendon-statics solve`, a process', against, solve / numpy, 1.5),
+    ]
+
+
+def _run(*command: str) -> None:
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, timeout=60)
