@@ -28,7 +28,7 @@ test: setup ## Run all tests (choose with ARGS, say ARGS='-k node')
 	@$(run) pytest $(ARGS)
 
 .PHONY: bench
-bench: setup ## Measure the speed beside NumPy, C and a bare relay; table and build/bench.json
+bench: setup ## Measure the speed beside NumPy and C; a table, and build/bench.json
 	@$(run) cd tools && python -m bench --json ../build/bench.json
 
 .PHONY: lint
