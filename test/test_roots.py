@@ -4,7 +4,7 @@ import itertools
 import math
 
 import pytest
-from designs import PRELIMINARY, cases
+from designs import PRELIMINARY, cases, random_cases
 from hypothesis import given, settings
 
 from tendon_statics import JointDesign
@@ -39,6 +39,29 @@ def test_a_bracket_is_halved_to_the_tolerance():
     assert (high - low) / 2**iterations <= BEND_ANGLE_TOLERANCE
     assert (high - low) / 2 ** (iterations - 1) > BEND_ANGLE_TOLERANCE
     assert equation.slope(root) > 0.0
+
+
+def test_the_last_bracket_is_proven_with_g_itself(monkeypatch):
+    """Also where the rounding of the quartic, which is what is bisected, misleads."""
+    misled = []
+    by_residual = SlipEquation._bisect_residual
+
+    def counted(equation, low, high):
+        misled.append((low, high))
+        return by_residual(equation, low, high)
+
+    monkeypatch.setattr(SlipEquation, '_bisect_residual', counted)
+    proven = 0
+    for design, *tensions in random_cases(400, seed=3):
+        equation = SlipEquation(design, *sorted(tensions))
+        for low, high in equation.brackets(0.0, design.max_bend_angle):
+            root, _ = equation.bisect(low, high)
+            before = max(low, root - BEND_ANGLE_TOLERANCE)
+            after = min(high, root + BEND_ANGLE_TOLERANCE)
+            assert equation.residual(before) * equation.residual(after) <= 0.0
+            proven += 1
+    assert proven > 150
+    assert 0 < len(misled) < 0.1 * proven
 
 
 def test_a_root_at_the_lower_end_is_found():

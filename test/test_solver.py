@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import pickle
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -204,6 +205,30 @@ def test_what_is_not_determined_is_none():
         )
         assert equilibrium.bend_angle_stddev(0.01) is None
         assert equilibrium.pressure_stddev(0.01) is None
+
+
+@pytest.mark.parametrize('tensions', [(1.0, 2.0), (3.0, 1.0), (1.0, 1.5), (0.0, 2.0)])
+def test_a_result_is_a_value(tensions):
+    """It can be pickled, compared and hashed, and not changed."""
+    equilibrium = solve(PRELIMINARY, *tensions)
+    again = pickle.loads(pickle.dumps(equilibrium))
+    assert again == equilibrium == solve(PRELIMINARY, *tensions)
+    assert hash(again) == hash(equilibrium)
+    assert again.as_dict() == equilibrium.as_dict()
+    for name in ('bend_angle', 'forces', 'something_else'):
+        with pytest.raises(AttributeError):
+            setattr(equilibrium, name, None)
+
+
+def test_the_dict_has_all_that_the_result_has():
+    equilibrium = solve(PRELIMINARY, 1.0, 2.0)
+    fields = equilibrium.as_dict()
+    assert 'design' not in fields
+    for name, value in fields.items():
+        attribute = getattr(equilibrium, name)
+        assert value == (attribute._asdict() if isinstance(value, dict) else attribute), name
+    assert all(value is not None for value in fields.values())
+    assert set(solve(PRELIMINARY, 1.0, 1.5).as_dict()) == set(fields)
 
 
 def test_at_the_stop_the_angle_does_not_follow_the_tensions():

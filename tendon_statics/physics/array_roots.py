@@ -95,7 +95,7 @@ class ArraySlipEquation(NormalForces):
         points = np.empty((5, np.size(self.offset)))
         b = self.excess + self.weight * spare
         lift = spare - self.excess
-        root = np.sqrt(lift * lift + self.product * (slide * slide))
+        root = np.sqrt(lift * lift + self.product * slide * slide)
         points[0] = angle
         points[1] = self.offset + self.gain * sin_theta
         points[2] = self.product / (b + root)

@@ -44,7 +44,7 @@ class EquilibriumBatch:
     regime: NDArray[np.int8]
     """Numbers by `REGIME_CODES`; `INVALID` for a pair for which `solve` raises"""
     tension_l: Floats
-    """T_l in N, as given: a view where one will do"""
+    """T_l in N, as given: a view where one will do, so leave what it shows as it is"""
     tension_s: Floats
     """T_s in N, likewise"""
     root_count: NDArray[np.uint8]
