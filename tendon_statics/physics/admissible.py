@@ -136,4 +136,9 @@ def _angles_below_limit(design: JointDesign, tension_l: float, tension_s: float)
     for root in roots:
         if not any(low <= root <= high for low, high in found):
             found.append((root, root))
+    # So is a stop that is at the limit but for rounding.
+    for end in (-stop, stop):
+        at_limit = margin_at(design, tension_l, tension_s, end) == 1.0
+        if at_limit and not any(low <= end <= high for low, high in found):
+            found.append((end, end))
     return sorted(found)
