@@ -235,7 +235,7 @@ def test_shapes_broadcast_and_broadcast_tensions_are_no_copies():
         (np.empty((3, 0)), 1.0, (3, 0)),
         ([1, 1], [2, 3], (2,)),
         (np.ones((2, 3), np.float32), 2.0, (2, 3)),
-        (np.arange(0.3, 2.7, 0.1).reshape(4, 6)[::-2, ::-3], [[2.0, 1.0]], (2, 2)),
+        (np.linspace(0.3, 2.6, 24).reshape(4, 6)[::-2, ::-3], [[2.0, 1.0]], (2, 2)),
         (np.ones((2, 3), order='F'), np.arange(6.0).reshape(2, 3), (2, 3)),
     ],
 )
