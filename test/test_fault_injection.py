@@ -124,8 +124,8 @@ def test_of_all_faults_at_once_each_is_counted_and_nothing_good_is_lost(kind, ob
         invalid = sent['nan_burst'] + sent['implausible'] + (1 - halves) * sent['wrong_length']
         wait_for('every regime', lambda: observer.regimes.count('invalid') == invalid)
         assert len(observer.regimes) == good + invalid
-        assert len(observer.bend_angles) == sent['good']
-        assert program.memory() < memory + 10.0
+        wait_for('every angle', lambda: len(observer.bend_angles) == sent['good'])
+        assert program.memory() < memory + 4.0
 
 
 def test_a_driver_that_is_killed_is_missed_and_taken_again(observer, recording):
@@ -183,7 +183,8 @@ def test_a_storm_is_weathered(observer, recording):
         # The first few may go before the estimator knows the driver.
         came = grown['messages received'] + grown['messages lost on the way']
         assert 0.9 * sent['messages'] <= came <= sent['messages']
-        assert grown['pairs solved'] == grown['messages received'] > 1000
+        solved, late = grown['pairs solved'], grown['dropped: late']
+        assert solved + late == grown['messages received'] > 1000
         wait_for('every regime', lambda: len(observer.regimes) == grown['pairs solved'])
         assert program.memory() < memory + 20.0
         observer.forget()

@@ -4,6 +4,7 @@ import math
 
 from designs import PRELIMINARY
 from diagnostic_msgs.msg import DiagnosticStatus
+from rcl_interfaces.msg import ParameterType, ParameterValue
 from ros_programs import Listener, Program, spinning, wait_for
 
 from tendon_statics import solve
@@ -120,6 +121,42 @@ def test_a_quiet_start_a_stream_and_its_end(listener):
         status = recovered()[0]
         assert float(values(status)['age of newest tensions [s]']) < 0.2
         assert float(values(status)['mean solve time [ms]']) > 0.0
+
+
+def test_a_changed_timeout_counts_from_then(listener):
+    with listener.estimator('-p', 'input_timeout:=60.0'):
+        listener.answer(*SLIPPING)
+        value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=0.2)
+        assert listener.set_estimator_parameters(input_timeout=value).successful
+        wait_for('that it is stale', lambda: listener.stale_regimes)
+
+
+def test_stale_is_said_at_once_also_after_an_error(listener):
+    with listener.estimator('-p', 'input_timeout:=0.1', '-p', 'cable_s.max_tension:=5.0'):
+        for _ in range(3):
+            listener.answer(*SLIPPING)
+            listener.answer(1.0, 5.5)
+            wait_for('the report of it', lambda: listener.diagnostics[-1].level == ERROR)
+        since = len(listener.diagnostics)
+        wait_for('the next report', lambda: len(listener.diagnostics) > since)
+        wait_for('that it is stale', lambda: listener.diagnostics[-1].level == STALE)
+
+
+def test_an_angle_that_is_not_assured_is_a_warning(listener):
+    arguments = ('estimation:=tracking', 'input_timeout:=0.2')
+    with listener.estimator(*(part for value in arguments for part in ('-p', value))):
+        listener.answer(*STOP)
+        assert listener.reset().success
+        wait_for('that it is stale', lambda: listener.stale_regimes)
+        # Put somewhere while nobody looks, and left alone again.
+        assert listener.reset().success
+        since = len(listener.diagnostics)
+        wait_for('a report', lambda: len(listener.diagnostics) > since + 1)
+        count = len(listener.estimates)
+        listener.answer(*HELD)
+        wait_for('the estimate', lambda: len(listener.estimates) > count)
+        assert not listener.estimates[-1].angle_assured
+        listener.wait_for_status(WARN, 'its angle is not assured', since=since)
 
 
 def test_stale_is_said_once_and_nothing_else_until_tensions_come_again(listener):

@@ -78,7 +78,8 @@ def test_deactivated_it_stops_and_says_so_and_goes_on_when_activated(listener):
         since = len(listener.diagnostics)
         assert listener.change_state('deactivate')
         # So that nobody goes on reading an OK.
-        status = listener.wait_for_status(DiagnosticStatus.STALE, since=since)
+        status = listener.wait_for_status(DiagnosticStatus.STALE, 'deactivated', since=since)
+        assert listener.stale_regimes == ['stale']
         assert status is listener.diagnostics[-1]
         for store in everything(listener):
             store.clear()
@@ -126,6 +127,21 @@ def test_unconfigured_parameters_may_be_set_one_by_one(listener):
         assert 'the end must exceed the start' in program.output()
         assert listener.set_estimator_parameters(design__contact_end_angle=double(2.0)).successful
         assert listener.change_state('configure')
+
+
+@pytest.mark.parametrize('state', WAYS)
+def test_parameters_can_be_set_in_every_state(state, listener):
+    """One cannot be deleted, which would leave the node without it."""
+    with listener.estimator(*NOT_STARTED, greet=False) as program:
+        listener.connect_to_services(program)
+        for transition in WAYS[state]:
+            assert listener.change_state(transition)
+        assert listener.set_estimator_parameters(design__mass=double(0.02)).successful
+        assert listener.estimator_parameter('design.mass') == 0.02
+        deleted = listener.set_estimator_parameters(design__mass=ParameterValue())
+        assert not deleted.successful
+        assert 'design.mass cannot be deleted' in deleted.reason
+        assert listener.estimator_state() == state
 
 
 def test_a_transition_that_does_not_exist_is_refused_and_harms_nothing(listener):

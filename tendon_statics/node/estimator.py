@@ -5,10 +5,13 @@ from __future__ import annotations
 import copy
 import functools
 import json
+import math
 import time
 from collections.abc import Callable
 from typing import Any
 
+from builtin_interfaces.msg import Time
+from diagnostic_msgs.msg import KeyValue
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType, JumpThreshold
 from rclpy.duration import Duration
@@ -17,6 +20,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.subscription import Subscription
+from rclpy.time import Time as ClockTime
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
@@ -85,8 +89,13 @@ class Estimator(LifecycleNode):
         self._health = Health()
         self._reported_level = Level.OK
         self._newest: dict[str, int] = {}  # topic → number that its publisher gave a message
+        self._publisher_counts: dict[str, int] = {}  # topic → how many, at the last report
+        self._lag = 0  # ns that the present message waited
+        self._has_run = False
+        self._has_said_stale = True
+        self._corrected = -math.inf  # when a tracked unit was last put somewhere, steady, in s
 
-        declare_settings(self)
+        self._left_out = declare_settings(self)
         self._wiring = declare_wiring(self)
         self._outputs = Outputs(self, self._wiring)
         self._source = self._make_source()
@@ -94,8 +103,11 @@ class Estimator(LifecycleNode):
             self._tension_subscription(topic, *of_topic)
             for topic, of_topic in self._source.inputs.items()
         ]
+        self._drained = list(self._inputs)
         if self._wiring.estimation == 'tracking':
-            self._subscription(Float64, 'measured_bend_angle', self._on_measured_bend_angle)
+            self._drained.append(
+                self._subscription(Float64, 'measured_bend_angle', self._on_measured_bend_angle)
+            )
         self._create_services()
         self._create_timers()
         warn_of_unknown_parameters(self)
@@ -128,14 +140,19 @@ class Estimator(LifecycleNode):
         def on_message(message: Any) -> None:
             if self._state == ACTIVE:
                 self._health.received += 1
-                take(message)
+                if self._lag <= self._settings.input_timeout * 1e9:
+                    take(message)
+                else:
+                    self._on_drop(Reason.LATE, f'it waited {self._lag * 1e-9:.3f} s to be taken')
 
         def on_numbered_message(message: Any, info: dict[str, int]) -> None:
             number, before = info['publication_sequence_number'], self._newest.get(topic, 0)
             self._newest[topic] = number
             # Two publishers number each for itself, and one that begins anew at 1.
-            if 0 < before < number - 1 and subscription.get_publisher_count() == 1:
+            if 0 < before < number - 1 and self._is_alone(subscription):
                 self._health.note_lost(number - before - 1)
+            arrival = info['received_timestamp']  # 0 where the middleware does not tell
+            self._lag = max(0, time.time_ns() - arrival) if arrival > 0 else 0
             on_message(message)
 
         # EventsExecutor fails on callbacks that take the number.
@@ -144,6 +161,11 @@ class Estimator(LifecycleNode):
             message_type, topic, on_numbered_message if is_numbered else on_message
         )
         return subscription
+
+    def _is_alone(self, subscription: Subscription) -> bool:
+        """Whether its topic has one publisher, now and at the last report."""
+        before = self._publisher_counts.get(subscription.topic_name, 0)
+        return before <= 1 and subscription.get_publisher_count() == 1
 
     def _subscription(
         self, message_type: type, topic: str, callback: Callable[..., None]
@@ -237,19 +259,25 @@ class Estimator(LifecycleNode):
     def on_activate(self, _state: LifecycleState) -> TransitionCallbackReturn:
         """Begin to estimate."""
         self._let_pass_what_waits()
+        if self._tracker is not None and self._has_run:
+            self._tracker.doubt()  # It may have moved while nobody looked.
+        self._has_run = True
         self._health.begin_period()
         self._health.stale = False
-        self._watchdog.timer_period_ns = int(self._settings.input_timeout * 1e9)
-        self._watchdog.reset()
+        self._set_watchdog()
         self._diagnostics_timer.reset()
         self._state = ACTIVE
         self.get_logger().info(f'Ready: {self._wiring.estimation} from {self._input_names()}')
         return TransitionCallbackReturn.SUCCESS
 
+    def _set_watchdog(self) -> None:
+        self._watchdog.timer_period_ns = int(self._settings.input_timeout * 1e9)
+        self._watchdog.reset()
+
     def _let_pass_what_waits(self) -> None:
         """Take the messages that came while inactive, which are not of the present."""
         self._newest.clear()
-        for subscription in self._inputs:
+        for subscription in self._drained:
             with subscription.handle:
                 for _ in range(INPUT_DEPTH):
                     if not subscription.handle.take_message(
@@ -286,7 +314,7 @@ class Estimator(LifecycleNode):
         if self._state == ACTIVE:
             self._source.forget()
             self._lose_sight()
-            self._report()
+            self._report('deactivated')
 
     def _on_change_state(
         self, change: Callable[[Any, Any], Any], request: Any, response: Any
@@ -301,7 +329,11 @@ class Estimator(LifecycleNode):
     # Parameters: all of a change is checked before any of it is taken.
 
     def _check_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
-        if self._state != UNCONFIGURED:  # else on configuring
+        for parameter in parameters:
+            if parameter.type_ == Parameter.Type.NOT_SET:
+                reason = f'{parameter.name} cannot be deleted, only set to another value'
+                return SetParametersResult(successful=False, reason=reason)
+        if self._state in (INACTIVE, ACTIVE):  # before, on configuring
             try:
                 read_settings(self, parameters)
             except SettingError as error:
@@ -311,11 +343,12 @@ class Estimator(LifecycleNode):
     def _take_parameters(self, parameters: list[Parameter]) -> None:
         changes = ', '.join(f'{parameter.name} = {parameter.value!r}' for parameter in parameters)
         self.get_logger().info(f'Changed: {changes}')
-        if self._state == UNCONFIGURED:
+        self._left_out -= {parameter.name for parameter in parameters}
+        if self._state not in (INACTIVE, ACTIVE):
             return
         before, self._settings = self._settings, read_settings(self)
         if self._settings.input_timeout != before.input_timeout:
-            self._watchdog.timer_period_ns = int(self._settings.input_timeout * 1e9)
+            self._set_watchdog()
         if self._tracker is not None and self._settings.design != before.design:
             angle = self._tracker.bend_angle
             self._tracker.change_design(self._settings.design)
@@ -329,13 +362,16 @@ class Estimator(LifecycleNode):
 
     def _on_reading(self, reading: Reading) -> None:
         settings = self._settings
-        stamp = reading.stamp or self.get_clock().now().to_msg()
+        stamp = reading.stamp or self._time_of_arrival()
         tension_l, fault_l = calibrated('tension_l', reading.value_l, settings.cable_l)
         tension_s, fault_s = calibrated('tension_s', reading.value_s, settings.cable_s)
-        fault = fault_l or fault_s
-        if fault:
-            self._on_drop(*fault)
+        faults = [fault for fault in (fault_l, fault_s) if fault]
+        if faults:
+            # The implausible one first, since it is an error.
+            self._on_drop(*max(faults, key=lambda fault: fault[0] is Reason.IMPLAUSIBLE))
             return
+        if self._health.stale and not self._is_corrected():
+            self._doubt()
         begin = time.perf_counter()
         try:
             result = self._result(self._tracker, tension_l, tension_s)
@@ -343,14 +379,32 @@ class Estimator(LifecycleNode):
             self._on_drop(Reason.BELOW_WEIGHT, str(error))
             return
         was_stale = self._health.stale
-        self._health.note_result(result, time.perf_counter() - begin)
+        self._health.note_result(result, time.perf_counter() - begin, lag=self._lag * 1e-9)
+        self._source.tighten()
         self._watchdog.reset()
         self._latest = (tension_l, tension_s, time.monotonic())
         self._invalid_since_latest = 0
         self._outputs.publish(result, settings, stamp)
+        self._has_said_stale = False
         if was_stale:
-            self.get_logger().info('Valid tensions come again')
+            self.get_logger().info('Valid tensions come again', **self._throttled)
         self._report_change(recovered=was_stale)
+
+    def _time_of_arrival(self) -> Time:
+        clock = self.get_clock()
+        now = clock.now()
+        if clock.ros_time_is_active:  # A simulated clock does not know how long it waited.
+            return now.to_msg()
+        return ClockTime(nanoseconds=now.nanoseconds - self._lag).to_msg()
+
+    def _doubt(self) -> None:
+        """A tracked unit may have moved unseen; before the first tensions it is where it began."""
+        if self._tracker is not None and self._latest is not None:
+            self._tracker.doubt()
+
+    def _is_corrected(self) -> bool:
+        """Whether a tracked unit was put somewhere so lately that it is there."""
+        return time.monotonic() - self._corrected <= self._settings.input_timeout
 
     def _result(
         self, tracker: StickSlipTracker | None, tension_l: float, tension_s: float
@@ -380,6 +434,7 @@ class Estimator(LifecycleNode):
             return
         try:
             self._tracker.reset(message.data)
+            self._corrected = time.monotonic()
         except BendAngleError as error:
             self._rejected_corrections += 1
             self.get_logger().warning(
@@ -398,25 +453,27 @@ class Estimator(LifecycleNode):
             return
         self._lose_sight()
         self._source.loosen()
-        if self._latest is not None:
-            self._outputs.say_regime(STALE)
+        self._newest.clear()
         self.get_logger().warning(
             f'No valid tensions on {self._input_names()} for {self._settings.input_timeout:g} s',
             **self._throttled,
         )
-        self._report_change()
+        self._report()
 
     def _lose_sight(self) -> None:
-        """Take it that the unit may move unseen from now on."""
+        """Take it that the unit may move unseen from now on; say so once."""
         self._health.stale = True
-        if self._tracker is not None:
-            self._tracker.doubt()
+        if not self._has_said_stale:
+            self._has_said_stale = True
+            self._outputs.say_regime(STALE)
+        self._doubt()
         self._outputs.clear_drawing()
 
     def _on_diagnostics_time(self) -> None:
         if self._state == ACTIVE:
             self._report()
             self._health.begin_period()
+            self._reported_level = self._health.level
 
     def _report_change(self, *, recovered: bool = False) -> None:
         """Report at once what got worse, or that tensions come again; the rest can wait.
@@ -426,14 +483,20 @@ class Estimator(LifecycleNode):
         if recovered or self._health.level > self._reported_level:
             self._report()
 
-    def _report(self) -> None:
+    def _report(self, note: str = '') -> None:
         self._reported_level = self._health.level
         name = self.get_fully_qualified_name().lstrip('/')
-        publishers = {
+        self._publisher_counts = {
             subscription.topic_name: subscription.get_publisher_count()
             for subscription in self._inputs
         }
-        status = self._health.status(f'{name}: estimation', self._wiring.joint_name, publishers)
+        status = self._health.status(
+            f'{name}: estimation', self._wiring.joint_name, self._publisher_counts, note
+        )
+        left_out = ', '.join(sorted(self._left_out))
+        status.values.append(
+            KeyValue(key='design values left at the preliminary design', value=left_out)
+        )
         self._outputs.report(status)
 
     # Services
@@ -487,6 +550,7 @@ class Estimator(LifecycleNode):
                 response, 'estimation is equilibrium, which remembers nothing to reset'
             )
         self._tracker.reset(self._settings.initial_bend_angle)
+        self._corrected = time.monotonic()
         response.success = True
         response.message = f'the unit is at {self._settings.initial_bend_angle:.6g} rad'
         return response

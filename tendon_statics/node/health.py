@@ -46,6 +46,7 @@ class Health:
         self._since = time.monotonic()
         self._newest: float | None = None
         self._regime = ''
+        self._rate: float | None = None
         self._forget_period()
 
     def _forget_period(self) -> None:
@@ -53,6 +54,7 @@ class Health:
         self._lost_before = self.lost
         self._dropped_before = self.dropped.copy()
         self._held = 0
+        self._unassured = 0
         self._inconsistent = 0
         self._solve_time = self._longest_solve = 0.0
         self._is_warned = False
@@ -67,16 +69,21 @@ class Health:
             return Level.STALE
         return Level.WARN if self._is_warned else Level.OK
 
-    def note_result(self, result: Equilibrium | TrackedState, solve_time: float) -> None:
-        """Count a pair that was solved, in so many seconds."""
+    def note_result(
+        self, result: Equilibrium | TrackedState, solve_time: float, lag: float = 0.0
+    ) -> None:
+        """Count a pair that was solved, in so many seconds, after it waited `lag` seconds."""
         self.solved += 1
         self.stale = False
-        self._newest = time.monotonic()
+        self._newest = time.monotonic() - lag
         self._regime = result.regime.value
         self._solve_time += solve_time
         self._longest_solve = max(self._longest_solve, solve_time)
         if isinstance(result, Equilibrium) and result.regime is Regime.HELD:
             self._held += 1
+            self._is_warned = True
+        if isinstance(result, TrackedState) and not result.angle_assured:
+            self._unassured += 1
             self._is_warned = True
         if result.branch_consistent is False:
             self._inconsistent += 1
@@ -96,33 +103,39 @@ class Health:
 
     def begin_period(self) -> None:
         """Forget what is reported only once."""
-        self._since = time.monotonic()
+        now = time.monotonic()
+        period = now - self._since
+        self._rate = (self.solved - self._solved_before) / period if period > 0.0 else None
+        self._since = now
         self._forget_period()
 
-    def status(self, name: str, hardware_id: str, publishers: dict[str, int]) -> DiagnosticStatus:
+    def status(
+        self, name: str, hardware_id: str, publishers: dict[str, int], note: str = ''
+    ) -> DiagnosticStatus:
         """Say how the estimator is.
 
         Parameters
         ----------
         publishers : dict
             Topic that tensions come on → number of its publishers.
+        note : str
+            In place of what there is to say, if there is one.
         """
         now = time.monotonic()
         age = None if self._newest is None else now - self._newest
         solved = self.solved - self._solved_before
         findings = self._findings(solved, age)
-        level = self.level
+        level = Level.STALE if note else self.level
         for topic, count in publishers.items():
             if count > 1:
                 findings.append(f'{count} publishers on {topic}, one is expected')
                 level = max(level, Level.WARN)
         if not findings:
             findings = [self._regime or 'no tensions came yet']
-        period = now - self._since
         values = {
             'regime of newest tensions': self._regime,
             'age of newest tensions [s]': '' if age is None else f'{age:.3f}',
-            'rate [Hz]': f'{solved / period:.1f}' if period > 0.0 else '',
+            'rate [Hz]': '' if self._rate is None else f'{self._rate:.1f}',
             'mean solve time [ms]': f'{self._solve_time / solved * 1e3:.3f}' if solved else '',
             'longest solve time [ms]': f'{self._longest_solve * 1e3:.3f}' if solved else '',
             'messages received': str(self.received),
@@ -135,7 +148,7 @@ class Health:
         return DiagnosticStatus(
             level=_LEVELS[level],
             name=name,
-            message='; '.join(findings),
+            message=note or '; '.join(findings),
             hardware_id=hardware_id,
             values=[KeyValue(key=key, value=value) for key, value in values.items()],
         )
@@ -157,6 +170,11 @@ class Health:
             findings.append(f'dropped {reasons}; the last: {self.last_drop}')
         if self.lost > self._lost_before:
             findings.append(f'{self.lost - self._lost_before} messages lost on the way')
+        if self._unassured:
+            findings.append(
+                'the unit may have moved unseen, so that its angle is not assured '
+                f'({self._unassured} of {solved})'
+            )
         if self._held:
             findings.append(
                 f'held, so that tensions do not determine the angle ({self._held} of {solved})'

@@ -67,6 +67,7 @@ def declare_cable_names(node: Node) -> tuple[str, str]:
         list(CABLES),
         'joint_state: names of cables l and s, whose tensions are in effort',
     )
+    names = list(names or ())  # an empty list comes as None
     if len(names) != 2 or len(set(names)) != 2 or '' in names:
         raise SettingError(
             f'cable_names is {names!r}, two different names are needed, of cables l and s'

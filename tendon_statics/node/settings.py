@@ -96,8 +96,10 @@ class Settings:
         )
 
 
-def declare_settings(node: Node) -> None:
+def declare_settings(node: Node) -> set[str]:
     """Declare the parameters on a node; `read_settings` has what they are set to.
+
+    Returned are the names of those of the design that were not given.
 
     Design parameters that are left out come from the installed preliminary design, with a warning
     if only a part is given. Values that are not allowed are kept, for `read_settings` to refuse.
@@ -147,6 +149,7 @@ def declare_settings(node: Node) -> None:
         )
     for number in NUMBERS:
         declare_number(node, number)
+    return {PREFIX + name for name in left_out}
 
 
 def read_settings(node: Node, changes: Iterable[Any] = ()) -> Settings:

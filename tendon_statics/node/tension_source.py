@@ -15,7 +15,7 @@ from std_msgs.msg import Float64MultiArray
 
 NANOSECONDS = 1_000_000_000
 
-MOST_WAITING = 100
+MOST_WAITING = 1000
 """Messages of one load cell that wait for those of the other"""
 
 ROUNDING = 1e-15
@@ -42,6 +42,7 @@ class Reason(str, Enum):
     NEGATIVE = 'negative'
     IMPLAUSIBLE = 'implausible'
     BELOW_WEIGHT = 'below the weight'
+    LATE = 'late'
     OUT_OF_ORDER = 'out of order'
     REPEATED_STAMP = 'repeated stamp'
     UNPAIRED = 'unpaired'
@@ -49,7 +50,9 @@ class Reason(str, Enum):
     @property
     def is_of_content(self) -> bool:
         """Whether the message holds no pair of tensions, and not only comes at the wrong time."""
-        return self not in (Reason.OUT_OF_ORDER, Reason.REPEATED_STAMP, Reason.UNPAIRED)
+        return self not in (
+            *(Reason.LATE, Reason.OUT_OF_ORDER, Reason.REPEATED_STAMP, Reason.UNPAIRED),
+        )
 
 
 class Reading(NamedTuple):
@@ -90,9 +93,14 @@ class TensionSource:
         self._orders = {topic: StampOrder() for topic in stamped}
 
     def loosen(self) -> None:
-        """Take it that the driver may have begun anew, with an earlier clock."""
+        """Take it that the driver may have begun anew, with an earlier clock, until `tighten`."""
         for order in self._orders.values():
-            order.loosen()
+            order.is_loose = True
+
+    def tighten(self) -> None:
+        """Take it that the stamps are sound again, since tensions came of them."""
+        for order in self._orders.values():
+            order.is_loose = False
 
     def forget(self) -> None:
         """Forget what came before, for the clock was set back or the node was inactive."""
@@ -216,11 +224,12 @@ class WrenchPairSource(TensionSource):
                 self._drop_first('tension_l' if difference < 0 else 'tension_s')
                 continue
             # Where max_skew exceeds the period, one lost message must not shift all pairs after
-            # it: what is nearer to a message that already has a partner is left out.
-            if abs(at_l[0][0] - self._paired['tension_s']) < abs(difference):
+            # it: what is much nearer to a message that already has a partner is left out. Not
+            # what is a little nearer: cells that run freely may be half a period apart.
+            if abs(at_l[0][0] - self._paired['tension_s']) < 0.5 * abs(difference):
                 self._drop_first('tension_l')
                 continue
-            if abs(at_s[0][0] - self._paired['tension_l']) < abs(difference):
+            if abs(at_s[0][0] - self._paired['tension_l']) < 0.5 * abs(difference):
                 self._drop_first('tension_s')
                 continue
             (stamp_l, value_l, time_l), (stamp_s, value_s, time_s) = at_l.popleft(), at_s.popleft()
@@ -240,8 +249,8 @@ class StampOrder:
     """Objects to a stamp that is not later than the newest before it.
 
     A driver that begins anew with an earlier clock would be shut out for ever, and so would one
-    after a single stamp far in the future. So once the input is stale, `loosen`, the last of
-    `RISING` stamps in a row that rise is taken, however early they are.
+    after a single stamp far in the future. So while it is loose, the last of `RISING` stamps in a
+    row that rise is taken, however early they are.
     """
 
     def __init__(self) -> None:
@@ -252,22 +261,15 @@ class StampOrder:
         self._newest: int | None = None
         self._before = 0
         self._rising = 0
-        self._is_loose = False
-
-    def loosen(self) -> None:
-        """Take rising stamps also if they are early, until a stamp is in order again."""
-        if not self._is_loose:
-            self._is_loose = True
-            self._rising = 0
+        self.is_loose = False
 
     def objection(self, stamp: Time) -> tuple[Reason, str] | None:
         """Return what is against this stamp, None if it is in order."""
         time, newest = nanoseconds(stamp), self._newest
         self._rising = self._rising + 1 if time > self._before else 1
         self._before = time
-        if newest is None or time > newest or (self._is_loose and self._rising >= RISING):
+        if newest is None or time > newest or (self.is_loose and self._rising >= RISING):
             self._newest = time
-            self._is_loose = False
             return None
         if time == 0:
             text = 'the stamp is 0: the driver does not stamp its messages'
@@ -296,10 +298,10 @@ def calibrated(
     allowed = f'allowed is 0 to {calibration.max_tension:g} N'
     if not math.isfinite(tension):
         reason = Reason.NOT_FINITE
-    elif tension < 0.0:
-        reason = Reason.NEGATIVE
-    else:
+    elif abs(tension) > calibration.max_tension:
         reason = Reason.IMPLAUSIBLE
+    else:
+        reason = Reason.NEGATIVE
     return tension, (reason, f'{name} is {tension!r} N, {allowed}')
 
 
