@@ -5,6 +5,7 @@ import math
 import signal
 import sys
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -405,6 +406,19 @@ def test_a_signal_before_the_node_runs_ends_it_with_exit_code_0(number, moment):
     )
     with Program.running_command([sys.executable, '-c', code]) as program:
         assert program.wait() == 0, program.output()
+        assert 'Traceback' not in program.output()
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM], ids=lambda n: n.name)
+def test_a_second_signal_while_it_ends_changes_nothing(number, listener):
+    """As launch sends one after the terminal's."""
+    with listener.estimator() as program:
+        for _ in range(200):
+            if program.process.poll() is not None:
+                break
+            program.process.send_signal(number)
+            time.sleep(0.005)
+        assert program.wait(time_limit=5.0) == 0, program.output()
         assert 'Traceback' not in program.output()
 
 

@@ -162,6 +162,8 @@ def test_an_angle_that_is_not_assured_is_a_warning(listener):
 def test_stale_is_said_once_and_nothing_else_until_tensions_come_again(listener):
     # Twenty times the timeout is waited for, by the reports that come each second.
     with listener.estimator('-p', 'input_timeout:=0.1'):
+        wait_for('the greeting to be over', lambda: listener.stale_regimes)
+        listener.stale_regimes.clear()
         assert listener.answer(*SLIPPING) == 'equilibrium'
         wait_for('all of the answer', lambda: listener.joint_states and listener.estimates)
         wait_for('that it is stale', lambda: listener.stale_regimes)
@@ -223,6 +225,16 @@ def test_a_second_publisher_is_noticed(listener):
                 for status in listener.diagnostics[since:]
             ),
         )
+
+
+def test_a_driver_of_another_kind_is_named(listener):
+    """Which ROS by itself does not say: nothing comes, and no publisher is counted."""
+    with (
+        spinning(lambda context: Listener(context, 'joint_state')),
+        Program.running('estimator', '--ros-args', '-p', 'input_timeout:=0.1'),
+    ):
+        status = listener.wait_for_status(STALE, '/tensions is published as sensor_msgs/msg/Joint')
+        assert 'tension_source array takes std_msgs/msg/Float64MultiArray' in status.message
 
 
 def test_the_name_tells_estimators_apart(listener):

@@ -491,13 +491,27 @@ class Estimator(LifecycleNode):
             for subscription in self._inputs
         }
         status = self._health.status(
-            f'{name}: estimation', self._wiring.joint_name, self._publisher_counts, note
+            f'{name}: estimation',
+            self._wiring.joint_name,
+            self._publisher_counts,
+            note=note or (self._misfit() if self._health.stale else ''),
         )
         left_out = ', '.join(sorted(self._left_out))
         status.values.append(
             KeyValue(key='design values left at the preliminary design', value=left_out)
         )
         self._outputs.report(status)
+
+    def _misfit(self) -> str:
+        """Say which publishers of tensions publish what is not listened to; empty if none do."""
+        misfits = [
+            f'{subscription.topic_name} is published as {info.topic_type}, but tension_source '
+            f'{self._wiring.tension_source} takes {messages.type_name(subscription.msg_type)}'
+            for subscription in self._inputs
+            for info in self.get_publishers_info_by_topic(subscription.topic_name)
+            if info.topic_type != messages.type_name(subscription.msg_type)
+        ]
+        return '; '.join(misfits)
 
     # Services
 

@@ -30,6 +30,7 @@ __all__ = [
     'refuse',
     'refuse_inverse',
     'refuse_solve',
+    'type_name',
     'unit_pose',
 ]
 
@@ -42,6 +43,12 @@ except ImportError as _error:
     INTERFACES_MISSING = str(_error)
 else:
     INTERFACES_MISSING = ''
+
+
+def type_name(message_type: type) -> str:
+    """Return a type as ROS writes it, say ``std_msgs/msg/String``."""
+    package, kind, *_ = message_type.__module__.split('.')
+    return f'{package}/{kind}/{message_type.__name__}'
 
 
 def intervals_array(intervals: Sequence[tuple[float, float]]) -> Float64MultiArray:

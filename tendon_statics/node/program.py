@@ -92,6 +92,9 @@ def _run(name: str, node_class: str, arguments: Sequence[str] | None) -> int:
         if node is not None:
             node.destroy_node()
         rclpy.try_shutdown()
+        # A second signal, as launch sends one after Ctrl-C, must not kill Python while it ends.
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.SIG_IGN)
     return 0
 
 
