@@ -90,6 +90,16 @@ def test_two_publishers_and_lost_messages_are_warnings():
     assert values(health.status('n: t', 'bend', {}))['messages lost on the way'] == '3'
 
 
+def test_tensions_that_waited_long_are_older_and_a_warning():
+    health = Health()
+    health.note_result(solve(PRELIMINARY, *SLIPPING), 1e-4)
+    health.note_lag(0.2, most=0.5)
+    assert said(health)[0] == OK
+    assert float(values(health.status('n: t', 'b', {}))['age of newest tensions [s]']) >= 0.2
+    health.note_lag(0.7, most=0.5)
+    assert said(health) == (WARN, 'behind: tensions waited 0.7 s to be taken')
+
+
 def test_counts_are_kept_by_reason():
     health = Health()
     for reason in Reason:

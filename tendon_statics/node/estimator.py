@@ -140,10 +140,7 @@ class Estimator(LifecycleNode):
         def on_message(message: Any) -> None:
             if self._state == ACTIVE:
                 self._health.received += 1
-                if self._lag <= self._settings.input_timeout * 1e9:
-                    take(message)
-                else:
-                    self._on_drop(Reason.LATE, f'it waited {self._lag * 1e-9:.3f} s to be taken')
+                take(message)
 
         def on_numbered_message(message: Any, info: dict[str, int]) -> None:
             number, before = info['publication_sequence_number'], self._newest.get(topic, 0)
@@ -379,7 +376,8 @@ class Estimator(LifecycleNode):
             self._on_drop(Reason.BELOW_WEIGHT, str(error))
             return
         was_stale = self._health.stale
-        self._health.note_result(result, time.perf_counter() - begin, lag=self._lag * 1e-9)
+        self._health.note_result(result, time.perf_counter() - begin)
+        self._health.note_lag(self._lag * 1e-9, settings.input_timeout)
         self._source.tighten()
         self._watchdog.reset()
         self._latest = (tension_l, tension_s, time.monotonic())

@@ -57,6 +57,7 @@ class Health:
         self._unassured = 0
         self._inconsistent = 0
         self._solve_time = self._longest_solve = 0.0
+        self._longest_lag = 0.0
         self._is_warned = False
         self._is_implausible = False
 
@@ -69,13 +70,11 @@ class Health:
             return Level.STALE
         return Level.WARN if self._is_warned else Level.OK
 
-    def note_result(
-        self, result: Equilibrium | TrackedState, solve_time: float, lag: float = 0.0
-    ) -> None:
-        """Count a pair that was solved, in so many seconds, after it waited `lag` seconds."""
+    def note_result(self, result: Equilibrium | TrackedState, solve_time: float) -> None:
+        """Count a pair that was solved, in so many seconds."""
         self.solved += 1
         self.stale = False
-        self._newest = time.monotonic() - lag
+        self._newest = time.monotonic()
         self._regime = result.regime.value
         self._solve_time += solve_time
         self._longest_solve = max(self._longest_solve, solve_time)
@@ -87,6 +86,13 @@ class Health:
             self._is_warned = True
         if result.branch_consistent is False:
             self._inconsistent += 1
+            self._is_warned = True
+
+    def note_lag(self, lag: float, most: float) -> None:
+        """Note that the newest tensions waited `lag` seconds to be taken, `most` is still good."""
+        self._newest = time.monotonic() - lag
+        if lag > most:
+            self._longest_lag = max(self._longest_lag, lag)
             self._is_warned = True
 
     def note_drop(self, reason: Reason, text: str) -> None:
@@ -170,6 +176,8 @@ class Health:
             findings.append(f'dropped {reasons}; the last: {self.last_drop}')
         if self.lost > self._lost_before:
             findings.append(f'{self.lost - self._lost_before} messages lost on the way')
+        if self._longest_lag > 0.0:
+            findings.append(f'behind: tensions waited {self._longest_lag:.1f} s to be taken')
         if self._unassured:
             findings.append(
                 'the unit may have moved unseen, so that its angle is not assured '

@@ -42,7 +42,6 @@ class Reason(str, Enum):
     NEGATIVE = 'negative'
     IMPLAUSIBLE = 'implausible'
     BELOW_WEIGHT = 'below the weight'
-    LATE = 'late'
     OUT_OF_ORDER = 'out of order'
     REPEATED_STAMP = 'repeated stamp'
     UNPAIRED = 'unpaired'
@@ -50,9 +49,7 @@ class Reason(str, Enum):
     @property
     def is_of_content(self) -> bool:
         """Whether the message holds no pair of tensions, and not only comes at the wrong time."""
-        return self not in (
-            *(Reason.LATE, Reason.OUT_OF_ORDER, Reason.REPEATED_STAMP, Reason.UNPAIRED),
-        )
+        return self not in (Reason.OUT_OF_ORDER, Reason.REPEATED_STAMP, Reason.UNPAIRED)
 
 
 class Reading(NamedTuple):
