@@ -4,12 +4,13 @@ from pathlib import Path
 
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument
-from launch.conditions import IfCondition
-from launch.substitutions import LaunchConfiguration
+from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch_ros.actions import Node
+from launch_ros.utilities import make_namespace_absolute, prefix_namespace
 
-from tendon_statics.launch_actions import robot_state_publisher
+from tendon_statics.joint_names import JointNames, load_joint_names
+from tendon_statics.launch_actions import as_they_are, robot_state_publisher
+from tendon_statics.unit_description import unit_description
 
 
 def generate_launch_description():
@@ -35,20 +36,33 @@ def generate_launch_description():
                 choices=['true', 'false'],
                 description='whether a robot_state_publisher shows the unit in RViz',
             ),
-            # First, since xacro may fail, and launch leaves running what it has started by then.
-            robot_state_publisher(
-                LaunchConfiguration('params_file'),
-                LaunchConfiguration('namespace'),
-                condition=IfCondition(LaunchConfiguration('robot_state_publisher')),
-            ),
-            Node(
-                package='tendon_statics',
-                executable='estimator',
-                name='estimator',
-                namespace=LaunchConfiguration('namespace'),
-                parameters=[LaunchConfiguration('params_file')],
-                remappings=[('tensions', LaunchConfiguration('tensions'))],
-                output='screen',
-            ),
+            OpaqueFunction(function=start_estimator),
         ]
     )
+
+
+def start_estimator(context):
+    arguments = context.launch_configurations
+    namespace, params_file = arguments['namespace'], arguments['params_file']
+    # A launch file that includes this one may have pushed a namespace.
+    outer = arguments.get('ros_namespace')
+    full_namespace = make_namespace_absolute(prefix_namespace(outer, namespace))
+    names = load_joint_names(
+        params_file, f'{full_namespace.rstrip("/")}/estimator', default=JointNames()
+    )
+    actions = []
+    # First, since it may be missing, and launch leaves running what it has started by then.
+    if arguments['robot_state_publisher'] == 'true':
+        actions.append(robot_state_publisher(unit_description(params_file, names), namespace))
+    actions.append(
+        Node(
+            package='tendon_statics',
+            executable='estimator',
+            name='estimator',
+            namespace=namespace,
+            parameters=[params_file, as_they_are(names._asdict())],
+            remappings=[('tensions', arguments['tensions'])],
+            output='screen',
+        )
+    )
+    return actions

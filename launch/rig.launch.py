@@ -7,8 +7,9 @@ from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch_ros.actions import Node
 
-from tendon_statics.launch_actions import robot_state_publisher
+from tendon_statics.launch_actions import as_they_are, robot_state_publisher
 from tendon_statics.rig_file import load_rig
+from tendon_statics.unit_description import unit_description
 
 
 def generate_launch_description():
@@ -41,16 +42,13 @@ def start_rig(context):
     arguments = context.launch_configurations
     joints = load_rig(arguments['rig_file'])
     actions = []
-    # First, since xacro may fail, and launch leaves running what it has started by then.
+    # First, since it may be missing, and launch leaves running what it has started by then.
     if arguments['robot_state_publisher'] == 'true':
         actions += [
             robot_state_publisher(
-                str(joint.design_file),
+                unit_description(joint.design_file, joint.names, unit=f'{joint.namespace}/unit'),
                 joint.namespace,
                 joint.joint_state_topic,
-                name=f'{joint.namespace}/unit',
-                parent=joint.frame_id,
-                joint_name=joint.joint_name,
             )
             for joint in joints
         ]
@@ -67,7 +65,7 @@ def node(joint, name, parameters):
         name=name,
         namespace=joint.namespace,
         # What else the design file holds for /** goes to both nodes too.
-        parameters=[str(joint.design_file), parameters],
+        parameters=[str(joint.design_file), as_they_are(parameters)],
         remappings=list(joint.remappings.items()),
         # Where security is enabled; elsewhere it is a mere name.
         ros_arguments=['--enclave', f'/tendon_statics/{joint.namespace}/{name}'],

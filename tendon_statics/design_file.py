@@ -7,6 +7,7 @@ from pathlib import Path
 
 from .installed_files import installed_config
 from .output_file import output_file
+from .parameter_file import parameter_blocks
 from .physics.design import JointDesign, design_parameters
 from .physics.errors import DesignError
 from .yaml_file import YamlFileError, read_yaml
@@ -82,7 +83,7 @@ def default_design_path() -> Path:
 def _designs(content: object) -> dict[str, dict[str, object]]:
     """Node name → the design given for it, for every node that has one."""
     found = {}
-    for name, parameters in _parameter_blocks(content):
+    for name, parameters in parameter_blocks(content):
         design: dict[str, object] = {}
         for key, value in _flatten(parameters):
             name_in_design = key.removeprefix(_PREFIX)
@@ -93,16 +94,6 @@ def _designs(content: object) -> dict[str, dict[str, object]]:
         if design:
             found[name] = design
     return found
-
-
-def _parameter_blocks(content: object, name: str = '') -> Iterator[tuple[str, object]]:
-    """Every ``ros__parameters`` of a file with the node name, namespaces nested or not."""
-    if isinstance(content, Mapping):
-        for key, value in content.items():
-            if key == 'ros__parameters':
-                yield name, value
-            else:
-                yield from _parameter_blocks(value, f'{name}/{key}'.replace('//', '/'))
 
 
 def _flatten(parameters: object, prefix: str = '') -> Iterator[tuple[str, object]]:

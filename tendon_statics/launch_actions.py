@@ -2,47 +2,40 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Mapping
+from typing import Any
 
-from ament_index_python.packages import get_package_share_directory
-from launch import Condition
-from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitutions import Command
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
 
 def robot_state_publisher(
-    design_file: SomeSubstitutionsType,
-    namespace: SomeSubstitutionsType,
-    joint_states: SomeSubstitutionsType = 'estimator/joint_state',
-    condition: Condition | None = None,
-    **xacro_arguments: str,
+    description: str, namespace: str, joint_states: str = 'estimator/joint_state'
 ) -> Node:
-    """The action that starts robot_state_publisher with the description of one unit.
+    """The action that starts robot_state_publisher for one unit.
 
     Parameters
     ----------
-    design_file
-        The YAML file with the unit's design.
+    description
+        The unit as URDF.
     namespace
         That of the node.
     joint_states
         The estimator's topic ``~/joint_state``, seen from there.
-    condition
-        Whether to start it at all.
-    **xacro_arguments
-        Other arguments of ``urdf/unit.urdf.xacro``.
     """
-    urdf = Path(get_package_share_directory('tendon_statics')) / 'urdf' / 'unit.urdf.xacro'
-    command = [f'xacro "{urdf}" design_file:="', design_file, '"']
-    command += [f' {name}:="{value}"' for name, value in xacro_arguments.items()]
     return Node(
         package='robot_state_publisher',
         executable='robot_state_publisher',
         namespace=namespace,
-        parameters=[{'robot_description': ParameterValue(Command(command), value_type=str)}],
+        parameters=[as_they_are({'robot_description': description})],
         remappings=[('joint_states', joint_states)],
-        condition=condition,
         output='screen',
     )
+
+
+def as_they_are(parameters: Mapping[str, Any]) -> dict[str, Any]:
+    """Parameters whose text stays text; launch by itself makes true of the text ``on``."""
+    return {
+        name: ParameterValue(value, value_type=str) if isinstance(value, str) else value
+        for name, value in parameters.items()
+    }

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .design_file import load_design
+from .joint_names import JointNameError, JointNames, check_joint_name, load_joint_names
 from .node.tension_kinds import TENSION_SOURCES
 from .physics.design import JointDesign
 from .physics.errors import DesignError
@@ -40,6 +41,8 @@ class RigJoint:
     design_file: Path
     design: JointDesign
     """what is in `design_file`"""
+    names: JointNames
+    """of the joint: from the parameters, else the design file, else after the namespace"""
     tension_source: str = TENSION_SOURCES[0]
     parameters: Mapping[str, Any] = dataclasses.field(default_factory=dict)
     """of the estimator, by dotted name"""
@@ -50,19 +53,17 @@ class RigJoint:
     """parameters of the driver in simulation, by dotted name"""
 
     @property
-    def frame_id(self) -> str:
-        """The frame of the joint: of its namespace if the parameters do not name another."""
-        return str(self.parameters.get('frame_id', f'{self.namespace}/joint'))
-
-    @property
-    def joint_name(self) -> str:
-        """The name in ``~/joint_state``."""
-        return str(self.parameters.get('joint_name', 'bend'))
-
-    @property
     def joint_state_topic(self) -> str:
         """Where the estimator's ``~/joint_state`` is, seen from the namespace."""
-        return self.remappings.get('~/joint_state', 'estimator/joint_state')
+        topic = 'estimator/joint_state'
+        for name, other in self.remappings.items():
+            if self._seen_from_namespace(name) == topic:
+                return self._seen_from_namespace(other)
+        return topic
+
+    def _seen_from_namespace(self, name: str) -> str:
+        """The estimator's name of a topic, however it is written, in one way of writing."""
+        return re.sub('^~/', 'estimator/', name).removeprefix(f'/{self.namespace}/')
 
     def estimator_parameters(self) -> dict[str, Any]:
         """All parameters of the estimator."""
@@ -71,7 +72,7 @@ class RigJoint:
             **{f'design.{name}': value for name, value in dataclasses.asdict(self.design).items()},
             'tension_source': self.tension_source,
             **self.parameters,
-            'frame_id': self.frame_id,
+            **self.names._asdict(),
         }
 
     def driver_parameters(self) -> dict[str, Any]:
@@ -141,7 +142,20 @@ def _joint(entry: object, number: int, folder: Path) -> RigJoint:
         if key not in values:
             raise RigFileError(f'joint {number}: {key} is missing', key=key)
     design_file, design = values.pop('design_file')
-    return RigJoint(design_file=design_file, design=design, **values)
+    names = _names(design_file, values['namespace'], values.get('parameters', {}), number)
+    return RigJoint(design_file=design_file, design=design, names=names, **values)
+
+
+def _names(
+    design_file: Path, namespace: str, parameters: Mapping[str, Any], number: int
+) -> JointNames:
+    default = JointNames(f'{namespace}/joint', namespace.replace('/', '_'))
+    try:
+        names = load_joint_names(design_file, f'/{namespace}/estimator', default)
+    except JointNameError as error:
+        raise RigFileError(f'joint {number}: design_file: {error}', key='design_file') from None
+    given = {name: parameters[name] for name in JointNames._fields if name in parameters}
+    return names._replace(**given)
 
 
 # One function a key. They raise a ValueError that says what is wrong with the value.
@@ -187,17 +201,14 @@ def _path(value: object, folder: Path) -> Path:
 
 def _parameters(value: object, _folder: Path) -> dict[str, Any]:
     parameters = _by_dotted_name(value)
-    for name, home in (('tension_source', 'key'), ('design', 'key design_file')):
-        if any(key == name or key.startswith(f'{name}.') for key in parameters):
-            raise ValueError(f'{name} does not belong here, it has a {home} of its own')
+    for name in JointNames._fields:
+        if name in parameters:
+            check_joint_name(name, parameters[name])
     return parameters
 
 
 def _simulation(value: object, _folder: Path) -> dict[str, Any]:
-    parameters = _by_dotted_name(value)
-    if 'file' in parameters:
-        raise ValueError('file does not belong here, it has a key of its own: recording')
-    return parameters
+    return _by_dotted_name(value)
 
 
 def _by_dotted_name(value: object) -> dict[str, Any]:
@@ -209,6 +220,9 @@ def _by_dotted_name(value: object) -> dict[str, Any]:
     for name, item in pairs:
         if name in parameters:
             raise ValueError(f'{name} is given twice')
+        home = _HOMES.get(name.split('.')[0])
+        if home:
+            raise ValueError(f'{name} does not belong here, it has a key of its own: {home}')
         parameters[name] = item
     return parameters
 
@@ -237,10 +251,27 @@ def _remappings(value: object, _folder: Path) -> dict[str, str]:
         isinstance(name, str) and name for pair in value.items() for name in pair
     ):
         raise ValueError('a mapping of names to other names is needed')
+    for name in [name for pair in value.items() for name in pair]:
+        if not _TOPIC.fullmatch(name):
+            raise ValueError(
+                f'{name!r} is no name of a topic or service; it is written as tensions, '
+                '/left/tensions or ~/joint_state'
+            )
     return dict(value)
 
 
 _NAMESPACE = re.compile(r'/?[A-Za-z_][A-Za-z0-9_]*(?:/[A-Za-z_][A-Za-z0-9_]*)*/?')
+
+# Not __ns or __node, which move the node itself.
+_TOPIC = re.compile(r'(?!__)(?:~?/)?[A-Za-z_][A-Za-z0-9_]*(?:/[A-Za-z_][A-Za-z0-9_]*)*')
+
+_HOMES = {
+    'design': 'design_file',
+    'tension_source': 'tension_source',
+    'recording': 'recording',
+    'file': 'recording',
+}
+"""What is no parameter in a rig file → the key that it has"""
 
 _PARAMETER_TYPES = {bool, int, float, str}
 

@@ -267,6 +267,14 @@ def test_a_signal_finds_the_books_said_once_and_exits_with_0(number, arguments):
         assert 'Failed' not in program.output()
 
 
+def test_it_warns_of_parameters_that_nobody_has():
+    with driver('dropout_probabilty:=0.5', 'joint_name:=elbow') as program:
+        ignored = 'Parameters that this node does not have, ignored: '
+        wait_for('the warning', lambda: ignored in program.output())
+        (line,) = [line for line in program.output().splitlines() if ignored in line]
+    assert line.endswith(f'{ignored}dropout_probabilty')
+
+
 @pytest.mark.parametrize(
     ('argument', 'named'),
     [

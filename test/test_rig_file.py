@@ -41,6 +41,7 @@ def test_the_least_that_a_joint_needs(folder):
     assert estimator['design.mass'] == PRELIMINARY.mass
     assert estimator['tension_source'] == 'array'
     assert estimator['frame_id'] == 'left/joint'
+    assert estimator['joint_name'] == 'left'
     assert joint.driver_parameters() == {'tension_source': 'array'}
 
 
@@ -72,8 +73,8 @@ def test_all_that_a_joint_can_have(folder):
         assert parameters['cable_l.bias'] == 0.01
         assert parameters['cable_s.gain'] == -1.5
         assert parameters['markers'] is True
-    assert (joint.frame_id, joint.joint_name) == ('world', 'elbow')
-    assert estimator['frame_id'] == 'world'
+    assert joint.names == ('world', 'elbow')
+    assert (estimator['frame_id'], estimator['joint_name']) == ('world', 'elbow')
     assert not {'rate', 'file', 'nan_burst_length'} & set(estimator)
     assert driver['file'] == str(folder / 'run.csv')
     assert driver['rate'] == 100
@@ -91,6 +92,51 @@ def test_paths_start_from_the_folder_of_the_file_and_end_absolute(folder, monkey
     assert joint.design_file == folder / 'unit.yaml'
     assert joint.recording.is_absolute()
     assert joint.recording.samefile(folder / 'run.csv')
+
+
+@pytest.mark.parametrize('name', ['/**', '/arm/left/estimator', '/arm/*'])
+def test_the_names_of_a_joint_may_stand_in_its_design_file(folder, name):
+    with (folder / 'unit.yaml').open('a') as file:
+        if name == '/**':
+            file.write('    joint_name: elbow\n    frame_id: ball\n')
+        else:
+            file.write(f'{name}: {{ros__parameters: {{joint_name: elbow, frame_id: ball}}}}\n')
+    text = MINIMAL.replace('left', 'arm/left')
+    (joint,) = load(folder, text)
+    names = ('arm/left/joint', 'arm_left') if name == '/arm/*' else ('ball', 'elbow')
+    assert joint.names == names
+    estimator = joint.estimator_parameters()
+    assert (estimator['frame_id'], estimator['joint_name']) == names
+    (joint,) = load(folder, text + '  parameters: {joint_name: mine}')
+    assert joint.names == (names[0], 'mine')
+
+
+def test_a_name_in_the_design_file_that_is_no_text_is_refused(folder):
+    with (folder / 'unit.yaml').open('a') as file:
+        file.write('    joint_name: 7\n')
+    with pytest.raises(RigFileError, match=r'joint 1: design_file: .*unit\.yaml: joint_name is 7'):
+        load(folder, MINIMAL)
+
+
+@pytest.mark.parametrize(
+    ('remapping', 'topic'),
+    [
+        ('~/joint_state: statics/measured_js', 'statics/measured_js'),
+        ('estimator/joint_state: statics/measured_js', 'statics/measured_js'),
+        ('/arm/left/estimator/joint_state: statics/measured_js', 'statics/measured_js'),
+        ('~/joint_state: ~/angle', 'estimator/angle'),
+        ('~/joint_state: /arm/left/angle', 'angle'),
+        ('~/joint_state: /angle', '/angle'),
+        ('~/joint_state: a, estimator/joint_state: b', 'a'),
+        ('joint_state: a', 'estimator/joint_state'),
+        ('/estimator/joint_state: a', 'estimator/joint_state'),
+        ('tensions: a', 'estimator/joint_state'),
+    ],
+)
+def test_the_joint_state_is_found_however_it_was_remapped(folder, remapping, topic):
+    text = MINIMAL.replace('left', 'arm/left')
+    (joint,) = load(folder, f'{text}  remappings: {{{remapping}}}')
+    assert joint.joint_state_topic == topic
 
 
 def test_joints_come_in_the_order_of_the_file(folder):
@@ -141,20 +187,40 @@ def test_the_installed_example_has_one_joint_of_each_kind():
             ["tension_source is 'can'", 'array, joint_state, wrench_pair'],
         ),
         (MINIMAL + '  recording: no.csv', 'recording', ["is 'no.csv'", 'cannot be read']),
-        (MINIMAL + '  recording: unit.yaml', 'recording', ['no column tension_l']),
+        (MINIMAL + '  recording: unit.yaml', 'recording', ['a recording ends in .csv']),
         (MINIMAL + '  parameters: [1]', 'parameters', ['is [1]', 'names of parameters']),
         (MINIMAL + '  parameters: {a: }', 'parameters', ['a is None', 'number, text']),
         (MINIMAL + '  parameters: {a: [1, b]}', 'parameters', ["a is [1, 'b']", 'one kind']),
         (MINIMAL + '  parameters: {a: []}', 'parameters', ['a is []']),
         (MINIMAL + '  parameters: {a: {b: 1}, a.b: 2}', 'parameters', ['a.b is given twice']),
         (MINIMAL + '  parameters: &a {b: *a}', 'parameters', ['is in itself']),
-        (MINIMAL + '  parameters: {design: {mass: 1}}', 'parameters', ['key design_file']),
-        (MINIMAL + '  parameters: {design.mass: 1}', 'parameters', ['key design_file']),
-        (MINIMAL + '  parameters: {tension_source: array}', 'parameters', ['key of its own']),
-        (MINIMAL + '  simulation: {file: run.csv}', 'simulation', ['key of its own: recording']),
+        *(
+            (f'{MINIMAL}  {key}: {{{given}}}', key, [f'{name} does not', f'its own: {home}'])
+            for key in ('parameters', 'simulation')
+            for given, name, home in (
+                ('design: {mass: 1}', 'design.mass', 'design_file'),
+                ('design.mass: 1', 'design.mass', 'design_file'),
+                ('tension_source: array', 'tension_source', 'tension_source'),
+                ('recording: run.csv', 'recording', 'recording'),
+                ('file: run.csv', 'file', 'recording'),
+            )
+        ),
+        (MINIMAL + '  parameters: {joint_name: 7}', 'parameters', ['joint_name is 7', 'text']),
+        (MINIMAL + "  parameters: {frame_id: ''}", 'parameters', ["frame_id is ''", 'not empty']),
         (MINIMAL + '  simulation: fast', 'simulation', ["is 'fast'"]),
         (MINIMAL + '  remappings: {tensions: 3}', 'remappings', ["{'tensions': 3}", 'mapping']),
         (MINIMAL + '  remappings: [a, b]', 'remappings', ['mapping of names']),
+        *(
+            (MINIMAL + f'  remappings: {{"{name}": x}}', 'remappings', [f"'{name}' is no name"])
+            for name in (
+                '__ns',
+                'estimator:tensions',
+                '{node}/joint_state',
+                '~joint_state',
+                'a//b',
+            )
+        ),
+        (MINIMAL + '  remappings: {tensions: a b}', 'remappings', ["'a b' is no name"]),
     ],
 )
 def test_errors_name_file_joint_key_value_and_what_is_allowed(folder, text, key, named):

@@ -58,7 +58,7 @@ def test_the_example_rig_runs_in_simulation_and_ends_on_ctrl_c():
         wait_for('estimates of every joint', has_estimates)
         for joint in joints:
             (frame,) = {e.header.frame_id for e in audience.estimates[joint.namespace]}
-            assert frame == joint.frame_id
+            assert frame == joint.names.frame_id
         named = {'/distal/actuators/measured_js', '/distal/statics/measured_js'}
         named |= {'/proximal/tensions', '/gripper/tension_l', '/gripper/tension_s'}
         assert named <= audience.topics()

@@ -37,12 +37,7 @@ from .health import Health, Level
 from .number_parameter import SettingError
 from .outputs import INVALID, STALE, Outputs
 from .program import StartError
-from .settings import (
-    Settings,
-    declare_settings,
-    read_settings,
-    warn_of_unknown_parameters,
-)
+from .settings import Settings, declare_settings, read_settings
 from .tension_source import (
     ArraySource,
     JointStateSource,
@@ -52,6 +47,7 @@ from .tension_source import (
     WrenchPairSource,
     calibrated,
 )
+from .unknown_parameters import warn_of_unknown_parameters
 from .wiring import declare_wiring
 
 WARNING_PERIOD = 5.0

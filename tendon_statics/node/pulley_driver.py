@@ -36,6 +36,7 @@ from .tension_publishers import (
     TensionPublisher,
     WrenchPairPublisher,
 )
+from .unknown_parameters import warn_of_unknown_parameters
 
 SHORTEST_TICK, LONGEST_TICK = 0.001, 0.1
 """s between two looks at what is due; a timer in Python is not good for more of them"""
@@ -85,6 +86,7 @@ class PulleyDriver(Node):
             recording = load_recording(path or installed_config('demo_tensions.csv')).whole()
         except RecordingError as error:
             raise StartError(str(error)) from None
+        warn_of_unknown_parameters(self)
         self._rows = recording.tensions()
         for gain, value in zip(GAINS, self._gains, strict=True):
             if value == 0.0:

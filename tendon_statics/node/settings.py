@@ -166,15 +166,6 @@ def read_settings(node: Node, changes: Iterable[Any] = ()) -> Settings:
     return Settings.from_values(values | {change.name: change.value for change in changes})
 
 
-def warn_of_unknown_parameters(node: Node) -> None:
-    """Say which parameters came that the node does not have; call it when all are declared."""
-    unknown = [name for name in node._parameter_overrides if not node.has_parameter(name)]
-    if unknown:
-        node.get_logger().warning(
-            f'Parameters that this node does not have, ignored: {", ".join(unknown)}'
-        )
-
-
 def _design(values: Mapping[str, object]) -> JointDesign:
     try:
         return JointDesign.from_mapping(

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from rclpy.node import Node
 
+from ..joint_names import JointNames
 from .parameters import (
     declare_cable_names,
     declare_choice,
@@ -51,11 +52,14 @@ def declare_wiring(node: Node) -> Wiring:
         cable_names=declare_cable_names(node),
         wrench_component=declare_wrench_component(node),
         frame_id=declare_fixed(
-            *(node, 'frame_id', 'joint'),
+            *(node, 'frame_id', JointNames().frame_id),
             'frame of the joint, in every stamped message: origin in the centre of the ball, '
             'Z along the unit at zero bend, X towards cable s',
         ),
-        joint_name=declare_fixed(node, 'joint_name', 'bend', 'name of the joint in ~/joint_state'),
+        joint_name=declare_fixed(
+            *(node, 'joint_name', JointNames().joint_name),
+            'name of the joint in ~/joint_state',
+        ),
         markers=declare_fixed(node, 'markers', False, 'whether there is ~/markers, for RViz'),
         executor=declare_choice(
             *(node, 'executor', ('single', 'events')),
