@@ -80,6 +80,11 @@ class Program:
         (line,) = [line for line in lines if line.startswith('VmRSS:')]
         return int(line.split()[1]) / 1024.0
 
+    def cpu_time(self) -> float:
+        """CPU time in s that all of its threads took so far."""
+        fields = Path(f'/proc/{self.process.pid}/stat').read_text().rpartition(')')[2].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
+
     def end(self, number: int = signal.SIGINT, time_limit: float = TIME_LIMIT) -> int:
         """Send a signal and return the exit code."""
         self.process.send_signal(number)

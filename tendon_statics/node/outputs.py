@@ -10,6 +10,7 @@ from typing import Any
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseWithCovarianceStamped
+from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
@@ -41,13 +42,27 @@ class Finding:
     """What there is to say of one pair of tensions, worked out when it is asked for."""
 
     def __init__(
-        self, result: Equilibrium | TrackedState, settings: Settings, wiring: Wiring, stamp: Time
+        self,
+        result: Equilibrium | TrackedState,
+        settings: Settings,
+        wiring: Wiring,
+        stamp: Callable[[], Time],
     ) -> None:
         self.result = result
         self.design = settings.design
         self.tension_stddev = settings.tension_stddev
-        self.joint_name = wiring.joint_name
-        self.header = Header(stamp=stamp, frame_id=wiring.frame_id)
+        self._wiring = wiring
+        self._stamp = stamp
+
+    @property
+    def joint_name(self) -> str:
+        """Name of the joint."""
+        return self._wiring.joint_name
+
+    @cached_property
+    def header(self) -> Header:
+        """Header of all messages that have one."""
+        return Header(stamp=self._stamp(), frame_id=self._wiring.frame_id)
 
     @cached_property
     def slip_margin(self) -> float | None:
@@ -148,13 +163,22 @@ class Outputs:
             topic,
             QoSProfile(depth=OUTPUT_DEPTH),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+            # Its events would be waited for with every message, at more than the cost of a solve.
+            # A subscriber whose QoS does not fit is warned of it by its own node.
+            event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
         )
 
-    def publish(self, result: Equilibrium | TrackedState, settings: Settings, stamp: Time) -> None:
-        """Publish all of a result that is determined and that somebody listens to."""
-        finding = Finding(result, settings, self._wiring, stamp)
+    def publish(
+        self, result: Equilibrium | TrackedState, settings: Settings, stamp: Time | None
+    ) -> None:
+        """Publish all of a result that is determined and that somebody listens to.
+
+        Without a stamp it is of the present time.
+        """
+        finding = Finding(result, settings, self._wiring, lambda: stamp or self._now())
         for publisher, make in self._of_findings:
-            if publisher.get_subscription_count() > 0:
+            # Of the handle itself, for a fifth of the time, since all are asked each time.
+            if publisher.handle.get_subscription_count() > 0:
                 message = make(finding)
                 if message is not None:
                     publisher.publish(message)

@@ -16,10 +16,10 @@ from pathlib import Path
 
 from tendon_statics.command_line.tables import markdown_table
 
-from . import batch, solver, start_up
+from . import batch, node, solver, start_up
 from .rows import Row
 
-GROUPS = (solver, batch, start_up)
+GROUPS = (solver, batch, start_up, node)
 """Each has a function `rows` that measures a group of rows"""
 
 
@@ -38,6 +38,12 @@ def main() -> int:
         except Exception:
             traceback.print_exc()
             failed.append(name)
+    shares: dict[str, float] = {}
+    try:
+        shares = node.shares()
+    except Exception:
+        traceback.print_exc()
+        failed.append('shares')
     print(
         markdown_table(
             ('work', 'against', 'ratio:', 'to reach', 'reached'),
@@ -53,10 +59,20 @@ def main() -> int:
             ],
         )
     )
+    print()
+    print(
+        markdown_table(
+            ('where the node spends a message', 'share of CPU [%]:'),
+            [(part, f'{100.0 * share:.0f}') for part, share in shares.items()],
+        )
+    )
     machine = {'cores': os.cpu_count(), 'python': platform.python_version()}
     options.json.parent.mkdir(parents=True, exist_ok=True)
     options.json.write_text(
-        json.dumps({**machine, 'rows': [asdict(row) for row in rows]}, indent=2) + '\n',
+        json.dumps(
+            {**machine, 'rows': [asdict(row) for row in rows], 'node_shares': shares}, indent=2
+        )
+        + '\n',
         encoding='utf-8',
     )
     if failed:

@@ -1,0 +1,52 @@
+"""A bare rclpy relay, as a process: what any node in Python costs that answers each message.
+
+It is called as the estimator is, answers on the same topics with the same quality of service, in
+rclpy's default executor, and says the same whatever comes.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+
+import rclpy
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from std_msgs.msg import Float64, Float64MultiArray
+
+from tendon_statics.node.estimator import INPUT_DEPTH
+from tendon_statics.node.outputs import OUTPUT_DEPTH
+from tendon_statics.physics import paper
+
+
+class Relay(Node):
+    """Answers each message with two that are always the same."""
+
+    def __init__(self) -> None:
+        super().__init__('estimator')
+        self._answers = [
+            (self.create_publisher(Float64, topic, OUTPUT_DEPTH), Float64(data=value))
+            for topic, value in (
+                ('~/bend_angle', paper.BEND_ANGLE),
+                ('~/joint_pressure', paper.PRESSURE),
+            )
+        ]
+        quality = QoSProfile(depth=INPUT_DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
+        self.create_subscription(Float64MultiArray, 'tensions', self._answer, quality)
+
+    def _answer(self, _message: Float64MultiArray) -> None:
+        for publisher, message in self._answers:
+            publisher.publish(message)
+
+
+def main() -> None:
+    """Relay until a signal."""
+    rclpy.init()
+    executor = SingleThreadedExecutor()
+    executor.add_node(Relay())
+    with suppress(ExternalShutdownException):
+        executor.spin()
+
+
+if __name__ == '__main__':
+    main()
