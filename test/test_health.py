@@ -194,6 +194,8 @@ def test_before_the_first_tensions_only_diagnostics_say_so(listener):
     with listener.estimator('-p', 'input_timeout:=0.1', greet=False):
         status = listener.wait_for_status(STALE, 'no valid tensions came yet')
         assert values(status)['messages received'] == '0'
+        left = values(status)['design values left at the preliminary design']
+        assert 'design.mass' in left
         assert not listener.regimes
         assert not listener.stale_regimes
 
