@@ -172,3 +172,11 @@ def test_of_a_truncated_recording_the_beginning_is_replayed_and_the_rest_is_name
 )
 def test_an_error_is_one_line(arguments, named):
     assert_refused(run('replay', *arguments), named)
+
+
+def test_a_recording_is_never_overwritten_by_its_own_replay(tmp_path):
+    path = tmp_path / 'session.csv'
+    path.write_text('tension_l,tension_s\n1,2\n')
+    before = path.read_bytes()
+    assert_refused(run('replay', str(path), '--output', str(path)), 'it is the recording itself')
+    assert path.read_bytes() == before

@@ -54,6 +54,11 @@ def run(options: argparse.Namespace) -> int:
     """Replay, write the samples, print a summary."""
     write = _writer(options.output)
     recording = recording_from(options)
+    if write is not None and options.output.exists() and options.output.samefile(options.data):
+        raise OutputError(
+            f'{options.output}: it is the recording itself, which must not be overwritten; '
+            'name another file'
+        )
     replayed = replay_from(options, design_from(options), recording)
     if write is not None:
         write(options.output, replayed)
