@@ -35,7 +35,7 @@ soak: setup ## Stream faulty tensions at the estimator and balance the books (MI
 	@$(run) python tools/soak.py --minutes $(MINUTES)
 
 .PHONY: bench
-bench: setup ## Measure the speed beside NumPy and C; a table, and build/bench.json
+bench: setup ## Measure the speed beside NumPy, C and a bare relay; tables, and build/bench.json
 	@$(run) cd tools && python -m bench --json ../build/bench.json
 
 .PHONY: lint

@@ -46,7 +46,7 @@ class Finding:
         result: Equilibrium | TrackedState,
         settings: Settings,
         wiring: Wiring,
-        stamp: Callable[[], Time],
+        stamp: Time,
     ) -> None:
         self.result = result
         self.design = settings.design
@@ -62,7 +62,7 @@ class Finding:
     @cached_property
     def header(self) -> Header:
         """Header of all messages that have one."""
-        return Header(stamp=self._stamp(), frame_id=self._wiring.frame_id)
+        return Header(stamp=self._stamp, frame_id=self._wiring.frame_id)
 
     @cached_property
     def slip_margin(self) -> float | None:
@@ -168,14 +168,9 @@ class Outputs:
             event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
         )
 
-    def publish(
-        self, result: Equilibrium | TrackedState, settings: Settings, stamp: Time | None
-    ) -> None:
-        """Publish all of a result that is determined and that somebody listens to.
-
-        Without a stamp it is of the present time.
-        """
-        finding = Finding(result, settings, self._wiring, lambda: stamp or self._now())
+    def publish(self, result: Equilibrium | TrackedState, settings: Settings, stamp: Time) -> None:
+        """Publish all of a result that is determined and that somebody listens to."""
+        finding = Finding(result, settings, self._wiring, stamp)
         for publisher, make in self._of_findings:
             # Of the handle itself, for a fifth of the time, since all are asked each time.
             if publisher.handle.get_subscription_count() > 0:
