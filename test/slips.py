@@ -46,3 +46,26 @@ def recording(samples: np.ndarray, with_pressure: bool = True, **more) -> Record
     """The samples as a recording."""
     tension_l, tension_s, bend_angle, pressure = samples.T
     return Recording(tension_l, tension_s, bend_angle, pressure if with_pressure else None, **more)
+
+
+def session(
+    slips: np.ndarray, rng: np.random.Generator, ramp: int = 80, at_stop: int = 40
+) -> Recording:
+    """A slow ramp up to each of the slips, and rest at the stop after it, all with noise.
+
+    The ramp begins at equal tensions and reaches the boundary in so small steps that its last
+    samples are as good as on it. Beyond it the unit lies against its stop, on either side of
+    which the noise of the angle puts it.
+    """
+    rows, state = [], []
+    for tension_l, tension_s, angle, pressure in slips:
+        weak = min(tension_l, tension_s)
+        for share in np.linspace(0.0, 1.0, ramp + 1) ** 0.5:
+            pair = [weak + share * (tension - weak) for tension in (tension_l, tension_s)]
+            rows.append((*pair, angle, math.nan))
+        rows[-1] = (tension_l, tension_s, angle, pressure)
+        state += ['held'] * ramp + ['slipping']
+        side = math.copysign(TRUTH.max_bend_angle, tension_s - tension_l)
+        rows += [(tension_l, tension_s, side, math.nan)] * at_stop
+        state += ['held'] * at_stop
+    return recording(measured(np.array(rows), rng), state=state)

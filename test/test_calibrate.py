@@ -80,13 +80,29 @@ def test_json_holds_what_the_text_says(session):
     assert np.array(answer['correlation']).shape == (3, 3)
 
 
-def test_what_cannot_be_told_is_not_given_a_number(point):
-    text = run('calibrate', point).stdout
-    assert text.count('not determined') == 3
-    assert '2 equations cannot determine 3 parameters' in text
+def test_what_cannot_be_told_is_not_given_a_number(tmp_path, point):
+    output = tmp_path / 'fitted.yaml'
+    done = run('calibrate', point, '--output', output)
+    assert done.stdout.count('not determined') == 3
+    assert '2 equations cannot determine 3 parameters' in done.stdout
+    assert done.returncode == 2
+    assert done.stderr.count('\n') == 1
+    assert 'do not determine mass and cable_offset and friction_coefficient' in done.stderr
+    assert not output.exists()
     answer = json.loads(run('calibrate', point, '--format', 'json').stdout)
-    assert [parameter['standard_error'] for parameter in answer['parameters']] == [None] * 3
+    assert answer['design'] is None
+    for parameter in answer['parameters']:
+        assert [parameter[key] for key in ('value', 'standard_error', 'interval')] == [None] * 3
     assert answer['correlation'] == [[None] * 3] * 3
+
+
+def test_a_session_has_to_say_what_slips(tmp_path):
+    path = tmp_path / 'session.csv'
+    samples = measured(slipping_samples(20, np.random.default_rng(2)), np.random.default_rng(2))
+    rows = [f'{index},' + ','.join(map(repr, row)) for index, row in enumerate(samples.tolist())]
+    path.write_text('time,tension_l,tension_s,bend_angle,pressure\n' + '\n'.join(rows) + '\n')
+    assert_refused(run('calibrate', path), 'or --motion-step-deg), or say that all are')
+    assert 'slipping: 20' in run('calibrate', path, '--all-slipping').stdout
 
 
 def test_the_node_takes_the_fitted_file(tmp_path, session, listener):
@@ -105,7 +121,10 @@ def test_the_node_takes_the_fitted_file(tmp_path, session, listener):
         (['POINT', '--fit', 'weight'], "'weight', which is no design parameter"),
         (['POINT', '--fit', ''], 'no parameter'),
         (['POINT', '--design', 'missing.yaml'], 'missing.yaml'),
-        (['POINT', '--output', '/no/such/folder/fitted.yaml'], 'cannot be written'),
+        (
+            ['POINT', '--fit', 'mass', '--output', '/no/such/folder/fitted.yaml'],
+            'cannot be written',
+        ),
         (['POINT', '--tension-stddev', '0'], 'tension_stddev is 0.0'),
         (['POINT', '--motion-step-deg', '-1'], 'which must be above 0'),
         (['POINT', '--motion-step-deg', '1'], 'none of 1 samples is known to be slipping'),

@@ -5,7 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from tendon_statics.physics.identification import LOSS_VARIANCE, identify
+from tendon_statics.physics.identification import (
+    LOSS_VARIANCE,
+    identify,
+    scatter_scale,
+    scatter_significance,
+)
 
 
 def test_errors_and_correlations_are_those_of_least_squares():
@@ -19,15 +24,42 @@ def test_errors_and_correlations_are_those_of_least_squares():
     assert len(found.null_directions) == 0
 
 
-def test_with_gaussian_residuals_the_errors_are_those_of_the_noise():
+@pytest.mark.parametrize(('count', 'width'), [(9, 3), (24, 3), (400, 2)])
+@pytest.mark.parametrize('noise', [0.2, 1.0, 5.0])
+def test_the_scatter_tells_the_noise(count, width, noise):
     rng = np.random.default_rng(2)
-    jacobian = rng.normal(size=(5000, 2))
-    calm, stated, wild = (
-        identify(jacobian, factor * rng.normal(size=5000)).standard_errors
-        for factor in (0.1, 1.0, 3.0)
-    )
-    assert stated == pytest.approx(calm, rel=0.05)
-    assert wild / calm == pytest.approx([3.0, 3.0], rel=0.35)
+    scales = []
+    for _ in range(200):
+        jacobian, data = rng.normal(size=(count, width)), noise * rng.normal(size=count)
+        residuals = data - jacobian @ np.linalg.lstsq(jacobian, data, rcond=None)[0]
+        scales.append(scatter_scale(residuals, count - width))
+    assert np.median(scales) == pytest.approx(noise, rel=0.12)
+
+
+def test_one_outlier_does_not_make_a_scatter():
+    rng = np.random.default_rng(3)
+    residuals = rng.normal(size=50)
+    before = scatter_scale(residuals, 47), scatter_significance(residuals, 47)
+    residuals[7] = 1e6
+    after = scatter_scale(residuals, 47), scatter_significance(residuals, 47)
+    assert after[0] < 1.15 * before[0]
+    assert after[1] - before[1] < 1.0
+    assert scatter_significance(3.0 * rng.normal(size=50), 47) > 5.0
+
+
+@pytest.mark.parametrize('residuals', [np.zeros(5), np.array([1.0, 0.0, 0.0, 0.0, 0.0])])
+def test_where_most_is_met_exactly_there_is_no_scatter(residuals):
+    assert scatter_scale(residuals, 5) == 0.0
+    assert scatter_scale(np.ones(3), 0) == 0.0
+    assert scatter_significance(np.ones(3), 0) == 0.0
+
+
+def test_few_equations_with_outliers_tell_less():
+    rng = np.random.default_rng(4)
+    jacobian, residuals = rng.normal(size=(12, 3)), rng.normal(size=12)
+    residuals[:4] *= 10.0
+    calm = identify(jacobian, np.zeros(12)).standard_errors
+    assert (identify(jacobian, residuals).standard_errors > 1.2 * calm).all()
 
 
 def test_a_combination_without_an_equation_is_named_and_the_rest_is_told():

@@ -7,6 +7,7 @@ from datetime import date
 from pathlib import Path
 
 from ..design_file import save_design
+from ..output_file import OutputError
 from .calibration_options import add_calibration_options, calibration_from
 from .calibration_text import calibration_text
 from .options import add_design_option, add_format_option, design_from, print_json
@@ -29,12 +30,17 @@ def run(options: argparse.Namespace) -> int:
     recording = recording_from(options)
     calibration = calibration_from(options, design_from(options), recording)
     text = calibration_text(calibration, recording.name)
-    if options.output is not None:
+    if options.output is not None and calibration.design is not None:
         save_design(options.output, calibration.design, _provenance(options, text))
     if options.format == 'json':
         print_json({'data': recording.name, **calibration.as_dict()})
     else:
         print(text)
+    if options.output is not None and calibration.design is None:
+        raise OutputError(
+            f'{options.output}: no design is written, since the data do not determine '
+            f'{" and ".join(calibration.undetermined)}; leave out of --fit what you know otherwise'
+        )
     return report_damage(recording)
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import math
 
 from ..physics import Calibration, JointDesign, calibrate
 from ..physics.calibration import DEFAULT_FIT
+from ..physics.calibration_result import SLIPPING
 from ..recordings.motion import mark_motion
 from ..recordings.recording import Recording
 from .options import UsageError, add_tension_stddev_option
@@ -20,13 +22,19 @@ def add_calibration_options(parser: argparse.ArgumentParser) -> None:
         metavar='NAME,...',
         help='design parameters to fit; default: %(default)s',
     )
-    parser.add_argument(
+    states = parser.add_mutually_exclusive_group()
+    states.add_argument(
         '--motion-step-deg',
         type=float,
         metavar='DEG',
         help='take the states from the angle: it moves where it changes by more than this between '
         'two samples, the sample before is slipping, those at rest are held; default: the '
-        "recording's states, or, without any, every sample with an angle is slipping",
+        "recording's states",
+    )
+    states.add_argument(
+        '--all-slipping',
+        action='store_true',
+        help='every sample is about to slip, as is taken of a recording without states and times',
     )
     add_tension_stddev_option(parser)
     parser.add_argument(
@@ -46,9 +54,11 @@ def add_calibration_options(parser: argparse.ArgumentParser) -> None:
 
 def states_from(options: argparse.Namespace, recording: Recording) -> Recording:
     """Give the recording the states that the options ask for."""
-    if options.motion_step_deg is None:
-        return recording
-    return mark_motion(recording, math.radians(options.motion_step_deg))
+    if options.motion_step_deg is not None:
+        return mark_motion(recording, math.radians(options.motion_step_deg))
+    if options.all_slipping:
+        return dataclasses.replace(recording, state=[SLIPPING] * len(recording))
+    return recording
 
 
 def calibration_from(

@@ -42,11 +42,17 @@ def calibration_facts(calibration: Calibration, name: str) -> Facts:
     """What was fitted to and how well it fits."""
     noise, residuals = calibration.noise, calibration.residuals
     counts = dict(calibration.counts)
-    slipping, with_pressure, held = (counts.pop(key) for key in (SLIPPING, 'with pressure', HELD))
+    slipping, with_pressure, held, holds = (
+        counts.pop(key) for key in (SLIPPING, 'with pressure', HELD, 'holds')
+    )
     of_pressure = f', {noise.pressure:.3g} Pa' if with_pressure else ''
+    in_holds = f' in {holds} holds' if held else ''
     return [
         ('data', name),
-        ('samples', f'slipping: {slipping}, with a pressure: {with_pressure}, held: {held}'),
+        (
+            'samples',
+            f'slipping: {slipping}, with a pressure: {with_pressure}, held: {held}{in_holds}',
+        ),
         ('not used', ', '.join(f'{why}: {count}' for why, count in counts.items()) or 'none'),
         (
             'noise',
@@ -77,7 +83,7 @@ def calibration_text(calibration: Calibration, name: str) -> str:
 
 def _told(parameter: FittedParameter) -> tuple[str, str, str]:
     """Value, standard error and interval, as far as the data tell them."""
-    if parameter.standard_error is None or parameter.interval is None:
+    if parameter.interval is None:
         return 'not determined', '', ''
     low, high = parameter.interval
     return f'{parameter.value:.6g}', f'{parameter.standard_error:.2g}', f'{low:.6g} to {high:.6g}'

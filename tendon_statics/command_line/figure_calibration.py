@@ -103,7 +103,7 @@ def _draw_values(axes: Axes, calibration: Calibration) -> None:
     for row, parameter in enumerate(calibration.parameters):
         names.append(parameter.name.replace('_', ' '))
         scale = 100.0 / parameter.start if parameter.start else np.nan
-        if parameter.interval is None:
+        if parameter.value is None or parameter.interval is None:
             axes.annotate(
                 'not determined',
                 (100.0, row),

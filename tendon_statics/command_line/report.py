@@ -89,7 +89,9 @@ def run(options: argparse.Namespace) -> int:
         design, of = start, _start_name(options)
         fitted = ['<h2>Calibration</h2>', _warning(f'Nothing could be fitted: {error}')]
     else:
-        design, of = calibration.design, 'the fitted design'
+        design, of = calibration.design or start, 'the fitted design'
+        if calibration.design is None:
+            of = f'{_start_name(options)}, since the fit does not determine a design'
         fitted = _calibration_part(calibration, recording, _start_name(options))
     replayed = replay_from(options, design, recording)
     parts += [

@@ -5,51 +5,42 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Sequence
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .array_roots import Floats
-from .calibration_result import (
-    HELD,
-    SLIPPING,
-    Calibration,
-    FittedParameter,
-    ResidualStatistics,
-)
+from .calibration_result import CONFIDENCE, Calibration, FittedParameter, ResidualStatistics
+from .calibration_samples import Samples, SortedSamples, as_floats
 from .calibration_warnings import calibration_warnings
 from .design import DesignParameter, JointDesign, design_parameters
 from .errors import CalibrationError, DesignError
-from .identification import LOSS_SCALE, identify
-from .slip_boundary import BoundaryDistance, Noise, boundary_distance
-from .solver import MAX_TENSION
+from .identification import (
+    LOSS_SCALE,
+    Identification,
+    identify,
+    scatter_scale,
+    scatter_significance,
+)
+from .slip_boundary import BoundaryDistance, Noise
 
 DEFAULT_FIT = ('mass', 'cable_offset', 'friction_coefficient')
 
+TENSION_STDDEVS = (1e-9, 1e3)
+BEND_ANGLE_STDDEVS = (0.0, 1.0)
+PRESSURE_STDDEVS = (1e-9, 1e15)
+"""Ranges of standard deviations that are taken, in N, rad and Pa"""
 
-class Samples(Protocol):
-    """What `calibrate` fits to, such as a `Recording`; arrays of shape ``(n,)``."""
+SCALE_TOLERANCE = 1e-3
+"""Relative change of the noise's scale at which a fit has settled"""
+LARGEST_DISTANCE = 1e100
+"""In standard deviations; its square must be a number"""
 
-    @property
-    def tension_l(self) -> ArrayLike:
-        """T_l in N."""
+MOST_DESIGNS = 2000
+"""Tried in one search, after which it must have ended"""
 
-    @property
-    def tension_s(self) -> ArrayLike:
-        """T_s in N."""
-
-    @property
-    def bend_angle(self) -> ArrayLike | None:
-        """θ in rad, NaN where it was not measured."""
-
-    @property
-    def pressure(self) -> ArrayLike | None:
-        """Measured p in Pa, likewise, or None."""
-
-    @property
-    def state(self) -> Sequence[str] | None:
-        """``slipping``, ``held`` or anything else; None: every sample is slipping."""
+MOST_ROUNDS = 30
+"""Fits after which it must have"""
 
 
 def calibrate(
@@ -64,13 +55,15 @@ def calibrate(
     """Fit parameters of a design to samples of a unit that slips or is held.
 
     A slipping sample lies on the boundary of slip, which is an equation; with a measured pressure
-    it is two. A held sample is admissible: it counts only as far as it lies beyond the boundary.
-    Every distance is in units of its own noise, with that of tensions, angle and pressure taken
-    to first order (see `slip_boundary`), and enters by a soft L1 loss, so that outliers do not
-    rule the fit. Values stay within the ranges of `design_parameters`.
+    it is two. A hold, that is held samples at one angle, is an inequality: it counts only as far
+    as it lies beyond the boundary by more than noise explains. Every distance is in units of its
+    own noise, with that of tensions, angle and pressure taken to first order (see
+    `slip_boundary`), and enters by a soft L1 loss, so that outliers do not rule the fit. Values
+    stay within the ranges of `design_parameters`.
 
-    Standard errors come from the slipping samples alone, for the stated noise; where the distances
-    are larger than that explains, the errors are enlarged in proportion.
+    Standard errors come from the slipping samples alone, for the stated noise, or, where the
+    distances scatter more than that, for the noise that they tell themselves (see
+    `identification`).
 
     Parameters
     ----------
@@ -90,29 +83,16 @@ def calibrate(
     Raises
     ------
     CalibrationError
-        If `fit` names no parameter or an unknown one, there is no angle, no slipping sample can
-        be used, or a deviation is not valid.
+        If `fit` names no parameter or an unknown one, there is no angle, it is not known which
+        samples are slipping or none of them can be used, a deviation is not valid, or the search
+        does not settle.
     ImportError
         Without SciPy.
     """
-    from scipy.optimize import least_squares
-
     parameters = _checked_fit(fit)
     noise = _checked_noise(tension_stddev, bend_angle_stddev, pressure_stddev, data.pressure)
-    samples = _Samples(design, data, noise)
-    problem = _Problem(design, parameters, samples)
-    solution = least_squares(
-        problem.residuals,
-        problem.start,
-        jac='3-point',
-        bounds=problem.bounds,
-        loss='soft_l1',
-        f_scale=LOSS_SCALE,
-        xtol=1e-12,
-        ftol=1e-15,
-        gtol=1e-15,
-    )
-    return problem.result(solution.x)
+    samples = SortedSamples(design, data, noise)
+    return _Problem(design, parameters, samples).settled().result()
 
 
 def _checked_fit(fit: Sequence[str]) -> list[DesignParameter]:
@@ -133,105 +113,37 @@ def _checked_noise(
     tension: float, bend_angle: float, pressure: float | None, pressures: ArrayLike | None
 ) -> Noise:
     if pressure is None:
-        measured = _floats([] if pressures is None else pressures)
+        measured = as_floats([] if pressures is None else pressures)
         measured = measured[np.isfinite(measured) & (measured != 0.0)]
         pressure = 0.02 * float(np.median(abs(measured))) if len(measured) else 1.0
-    for name, value, unit in (
-        ('tension_stddev', tension, 'N'),
-        ('pressure_stddev', pressure, 'Pa'),
+    for name, value, unit, (low, high) in (
+        ('tension_stddev', tension, 'N', TENSION_STDDEVS),
+        ('bend_angle_stddev', bend_angle, 'rad', BEND_ANGLE_STDDEVS),
+        ('pressure_stddev', pressure, 'Pa', PRESSURE_STDDEVS),
     ):
-        if not 0.0 < value < math.inf:
-            raise CalibrationError(f'{name} is {value!r} {unit}, which must be above 0')
-    if not 0.0 <= bend_angle < math.inf:
-        raise CalibrationError(
-            f'bend_angle_stddev is {bend_angle!r} rad, which must be at least 0'
-        )
+        if not low <= value <= high:
+            raise CalibrationError(
+                f'{name} is {value!r} {unit}, allowed is {low:g} to {high:g} {unit}'
+            )
     return Noise(tension, bend_angle, pressure)
 
 
-class _Samples:
-    """The samples as arrays, and what each of them is used for."""
-
-    def __init__(self, design: JointDesign, data: Samples, noise: Noise) -> None:
-        if data.bend_angle is None:
-            raise CalibrationError('there is no measured bend angle in the data')
-        self.noise = noise
-        self.tension_l = _floats(data.tension_l)
-        self.tension_s = _floats(data.tension_s)
-        self.bend_angle = _floats(data.bend_angle)
-        count = len(self.tension_l)
-        missing = np.full(count, math.nan)
-        self.pressure = missing if data.pressure is None else _floats(data.pressure)
-        self.states_are_known = data.state is not None
-        state = [SLIPPING] * count if data.state is None else data.state
-        self.roles = self._roles(design, np.array(state, dtype=object), noise.bend_angle)
-        self.slipping = self.roles == SLIPPING
-        self.held = self.roles == HELD
-        self.with_pressure = self.slipping & np.isfinite(self.pressure)
-        names, counts = np.unique(self.roles, return_counts=True)
-        self.counts = {SLIPPING: 0, 'with pressure': int(self.with_pressure.sum()), HELD: 0}
-        self.counts |= {str(name): int(number) for name, number in zip(names, counts, strict=True)}
-        if not self.slipping.any():
-            unused = ', '.join(f'{n} {name}' for name, n in self.counts.items() if n)
-            raise CalibrationError(
-                f'none of {count} samples is known to be slipping and can be used ({unused})'
-            )
-
-    def _roles(
-        self, design: JointDesign, state: NDArray[np.object_], bend_angle_stddev: float
-    ) -> NDArray[np.str_]:
-        """State of every sample, or why it cannot be used."""
-        total = self.tension_l + self.tension_s
-        weak = np.minimum(self.tension_l, self.tension_s)
-        strong = np.maximum(self.tension_l, self.tension_s)
-        stop = design.max_bend_angle
-        angle = abs(self.bend_angle)
-        # Later ones are stronger.
-        reasons = {
-            'of no known state': (state != SLIPPING) & (state != HELD),
-            'at the stop': angle >= stop - 3.0 * bend_angle_stddev,
-            'beyond the stop': angle > stop + 3.0 * bend_angle_stddev,
-            'without an angle': ~np.isfinite(self.bend_angle),
-            'below the weight': ~(total > design.weight),
-            'slack': weak == 0.0,
-            'of invalid tensions': ~((weak >= 0.0) & (strong <= MAX_TENSION)),
-        }
-        roles = np.where(state == SLIPPING, SLIPPING, HELD).astype('<U24')
-        for reason, holds in reasons.items():
-            roles[holds] = reason
-        return roles
-
-    def distance(self, design: JointDesign, of: NDArray[np.bool_]) -> BoundaryDistance:
-        """Distance of some of the samples from the boundary of a design."""
-        return boundary_distance(
-            design,
-            self.tension_l[of],
-            self.tension_s[of],
-            self.bend_angle[of],
-            self.pressure[of],
-            self.noise,
-        )
-
-
-def _floats(values: ArrayLike) -> Floats:
-    return np.atleast_1d(np.asarray(values, dtype=np.float64))
-
-
 class _Problem:
-    """The least-squares problem in parameters that are scaled to about 1."""
+    """The least-squares problem in parameters that are scaled to about 1, and where it stands."""
 
     def __init__(
-        self, design: JointDesign, parameters: list[DesignParameter], samples: _Samples
+        self, design: JointDesign, parameters: list[DesignParameter], samples: SortedSamples
     ) -> None:
         self._design, self._parameters, self._samples = design, parameters, samples
         start = np.array([getattr(design, parameter.name) for parameter in parameters])
         widths = np.array([parameter.maximum - parameter.minimum for parameter in parameters])
-        self._scale = np.where(start != 0.0, abs(start), 1e-3 * widths)
-        self.start = start / self._scale
-        self.bounds = (
-            np.array([parameter.minimum for parameter in parameters]) / self._scale,
-            np.array([self._largest(parameter) for parameter in parameters]) / self._scale,
+        self._unit = np.where(start != 0.0, abs(start), 1e-3 * widths)
+        self._bounds = (
+            np.array([parameter.minimum for parameter in parameters]) / self._unit,
+            np.array([self._largest(parameter) for parameter in parameters]) / self._unit,
         )
+        self._scaled = np.clip(start / self._unit, *self._bounds)
+        self._noise_scale = 1.0
 
     def _largest(self, parameter: DesignParameter) -> float:
         """Upper end of a range; of mass and gravity, such that all tensions exceed the weight."""
@@ -244,13 +156,75 @@ class _Problem:
         least = float((samples.tension_l + samples.tension_s)[used].min())
         return min(parameter.maximum, (1.0 - 1e-6) * least / factor)
 
-    def residuals(self, scaled: Floats) -> Floats:
-        """Equations of the slipping samples, then what held ones lie beyond the boundary.
+    def settled(self) -> _Problem:
+        """Fit, over and over, until the scale of the noise is the one that the distances tell.
+
+        Raises
+        ------
+        CalibrationError
+            If a search or the scale does not settle, or a sample gives no number at the start.
+        """
+        for _ in range(MOST_ROUNDS):
+            self._search()
+            before, self._noise_scale = self._noise_scale, max(1.0, self._told_scale())
+            if abs(self._noise_scale - before) <= SCALE_TOLERANCE * before:
+                return self
+        raise CalibrationError(
+            f'the fit has not settled after {MOST_ROUNDS} rounds: the distances tell a noise of '
+            f'{before:.3g} and of {self._noise_scale:.3g} times the stated in turn; '
+            'fit fewer parameters, or look for wrong states'
+        )
+
+    def _search(self) -> None:
+        from scipy.optimize import least_squares
+
+        # NaN fails this test too.
+        if not (abs(self._residuals(self._scaled)) < LARGEST_DISTANCE).all():
+            raise CalibrationError(
+                'at the start design not every sample has a distance from the boundary of slip: '
+                'a value in the data is beyond all measure'
+            )
+        found = least_squares(
+            self._residuals,
+            self._scaled,
+            jac='3-point',
+            bounds=self._bounds,
+            loss='soft_l1',
+            f_scale=LOSS_SCALE,
+            xtol=1e-10,
+            ftol=1e-12,
+            gtol=1e-10,
+            max_nfev=MOST_DESIGNS,
+        )
+        if not found.success:
+            raise CalibrationError(
+                f'the search for the best design has not ended after {found.nfev} designs: '
+                'start nearer, with another --design, or fit fewer parameters'
+            )
+        self._scaled = found.x
+
+    def _told_scale(self) -> float:
+        """Standard deviation of the noise that the distances tell, as a multiple of the stated."""
+        return scatter_scale(self._equations(self._scaled), self._degrees_of_freedom())
+
+    def _degrees_of_freedom(self) -> int:
+        """Equations less what they determine of the parameters."""
+        identification = self._identification()
+        known = len(self._parameters) - len(identification.null_directions)
+        return len(self._equations(self._scaled)) - known
+
+    def _identification(self) -> Identification:
+        equations = self._equations(self._scaled) / self._noise_scale
+        return identify(self._jacobian(self._scaled) / self._noise_scale, equations)
+
+    def _residuals(self, scaled: Floats) -> Floats:
+        """Equations of the slipping samples and inequalities of the holds, in units of noise.
 
         They are NaN where there is no such design, from which the search turns back.
         """
-        held = self._distance(scaled, self._samples.held).standardised
-        return np.concatenate([self._equations(scaled), np.maximum(held, 0.0)])
+        parts = [self._equations(scaled), self._hold_excesses(scaled)]
+        residuals: Floats = np.concatenate(parts) / self._noise_scale
+        return residuals
 
     def _equations(self, scaled: Floats) -> Floats:
         samples = self._samples
@@ -258,11 +232,17 @@ class _Problem:
         measured = samples.with_pressure[samples.slipping]
         return np.concatenate([distance.standardised, distance.pressure_standardised[measured]])
 
+    def _hold_excesses(self, scaled: Floats) -> Floats:
+        held = self._distance(scaled, self._samples.held).standardised
+        return self._samples.hold_excesses(held, self._noise_scale)
+
     def _distance(self, scaled: Floats, of: NDArray[np.bool_]) -> BoundaryDistance:
+        samples = self._samples
         try:
-            return self._samples.distance(self._design_at(scaled), of)
+            design = self._design_at(scaled)
         except DesignError:
             return BoundaryDistance(*(np.full((4, int(of.sum())), math.nan)))
+        return samples.distance(design, of)
 
     def _design_at(self, scaled: Floats) -> JointDesign:
         """Design with the parameters, rounded into their ranges.
@@ -275,7 +255,7 @@ class _Problem:
         values = {
             parameter.name: min(max(value, parameter.minimum), parameter.maximum)
             for parameter, value in zip(
-                self._parameters, (scaled * self._scale).tolist(), strict=True
+                self._parameters, (scaled * self._unit).tolist(), strict=True
             )
         }
         return dataclasses.replace(self._design, **values)
@@ -286,37 +266,27 @@ class _Problem:
         for index, value in enumerate(scaled):
             ends = np.stack([scaled, scaled])
             step = 1e-5 * max(abs(value), 1.0)
-            low, high = (bound[index] for bound in self.bounds)
+            low, high = (bound[index] for bound in self._bounds)
             ends[:, index] = max(value - step, low), min(value + step, high)
             change = self._equations(ends[1]) - self._equations(ends[0])
             columns.append(change / (ends[1, index] - ends[0, index]))
         jacobian: Floats = np.nan_to_num(np.stack(columns, axis=1))
         return jacobian
 
-    def result(self, scaled: Floats) -> Calibration:
-        """Work out what is to be said of a solution."""
-        samples, names = self._samples, [parameter.name for parameter in self._parameters]
-        equations = self._equations(scaled)
-        identification = identify(self._jacobian(scaled), equations)
-        errors = identification.standard_errors * self._scale
-        design = self._design_at(scaled)
-        fitted = tuple(
-            FittedParameter(
-                name,
-                getattr(design, name),
-                getattr(self._design, name),
-                None if math.isnan(error) else float(error),
-            )
-            for name, error in zip(names, errors, strict=True)
-        )
-        residuals = self._statistics(scaled, equations)
-        low, high = (bound * self._scale for bound in self.bounds)
+    def result(self) -> Calibration:
+        """Work out what is to be said of the solution."""
+        samples = self._samples
+        identification = self._identification()
+        residuals = self._statistics()
+        fitted = self._fitted(identification, residuals)
+        design = self._design_at(self._scaled)
+        low, high = (bound * self._unit for bound in self._bounds)
         ranges = list(zip(self._parameters, low.tolist(), high.tolist(), strict=True))
         used = samples.slipping | samples.held
-        everywhere = self._distance(scaled, np.full(len(used), True))
+        everywhere = samples.distance(design, np.full(len(used), True))
         return Calibration(
             start=self._design,
-            design=design,
+            design=design if all(value.value is not None for value in fitted) else None,
             parameters=fitted,
             correlation=identification.correlation,
             residuals=residuals,
@@ -336,14 +306,53 @@ class _Problem:
             distance=BoundaryDistance(*(np.where(used, a, math.nan) for a in everywhere)),
         )
 
-    def _statistics(self, scaled: Floats, equations: Floats) -> ResidualStatistics:
-        held = self._distance(scaled, self._samples.held).standardised
+    def _fitted(
+        self, identification: Identification, residuals: ResidualStatistics
+    ) -> tuple[FittedParameter, ...]:
+        """Tell of each parameter what the data do."""
+        errors = identification.standard_errors * self._unit
+        half_widths = errors / self._noise_scale * _interval_factor(residuals)
+        design = self._design_at(self._scaled)
+        fitted = []
+        for parameter, error, half in zip(self._parameters, errors, half_widths, strict=True):
+            start = getattr(self._design, parameter.name)
+            if math.isnan(error):
+                fitted.append(FittedParameter(parameter.name, start, None, None, None))
+                continue
+            value = getattr(design, parameter.name)
+            ends = (
+                max(value - float(half), parameter.minimum),
+                min(value + float(half), parameter.maximum),
+            )
+            fitted.append(FittedParameter(parameter.name, start, value, float(error), ends))
+        return tuple(fitted)
+
+    def _statistics(self) -> ResidualStatistics:
+        equations = self._equations(self._scaled)
+        degrees_of_freedom = self._degrees_of_freedom()
         sizes = abs(equations)
         return ResidualStatistics(
             root_mean_square=float(np.sqrt(np.mean(equations**2))),
             median=float(np.median(sizes)),
             largest=float(sizes.max()),
             outliers=int((sizes > 3.0).sum()),
-            degrees_of_freedom=len(equations) - len(scaled),
-            held_violations=int((held > 3.0).sum()),
+            degrees_of_freedom=degrees_of_freedom,
+            scale=scatter_scale(equations, degrees_of_freedom),
+            significance=scatter_significance(equations, degrees_of_freedom),
+            hold_violations=int((self._hold_excesses(self._scaled) > 0.0).sum()),
         )
+
+
+def _interval_factor(residuals: ResidualStatistics) -> float:
+    """Half of a 95 % interval in standard errors of the stated noise.
+
+    That is of the normal distribution, or, where that is more, Student's for the noise that the
+    distances tell.
+    """
+    from scipy.special import ndtri, stdtrit
+
+    share = 0.5 + 0.5 * CONFIDENCE
+    normal = float(ndtri(share))
+    if residuals.degrees_of_freedom < 1:
+        return normal
+    return max(normal, residuals.scale * float(stdtrit(residuals.degrees_of_freedom, share)))

@@ -15,28 +15,20 @@ from .slip_boundary import BoundaryDistance, Noise
 SLIPPING, HELD = 'slipping', 'held'
 """Values of a sample's state"""
 
-INTERVAL = 1.959963984540054
-"""Standard errors on either side of a value that make an interval of 95 %"""
+CONFIDENCE = 0.95
+"""Of the intervals"""
 
 
 class FittedParameter(NamedTuple):
-    """A design parameter as the data say it is."""
+    """A design parameter as the data say it is; None for what they do not determine."""
 
     name: str
-    value: float
-    """The fitted value; not one that the data tell if `standard_error` is None"""
     start: float
     """Where the fit began"""
+    value: float | None
     standard_error: float | None
-    """None if the data do not determine the parameter"""
-
-    @property
-    def interval(self) -> tuple[float, float] | None:
-        """Ends of the 95 % interval; None if the data do not determine the parameter."""
-        if self.standard_error is None:
-            return None
-        half = INTERVAL * self.standard_error
-        return self.value - half, self.value + half
+    interval: tuple[float, float] | None
+    """Ends of the 95 % interval, within the parameter's range"""
 
 
 class ResidualStatistics(NamedTuple):
@@ -50,9 +42,14 @@ class ResidualStatistics(NamedTuple):
     outliers: int
     """Distances above 3"""
     degrees_of_freedom: int
-    """Equations less fitted parameters"""
-    held_violations: int
-    """Held samples that lie beyond the boundary by more than 3"""
+    """Equations less what they determine of the parameters"""
+    scale: float
+    """Standard deviation of the noise that the distances themselves tell, outliers left aside;
+    0 where there are no degrees of freedom"""
+    significance: float
+    """By how many standard deviations they scatter more than the stated noise would"""
+    hold_violations: int
+    """Holds that lie beyond the boundary by more than noise explains"""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -61,8 +58,8 @@ class Calibration:
 
     start: JointDesign
     """Where the fit began"""
-    design: JointDesign
-    """The start design with the fitted values"""
+    design: JointDesign | None
+    """The start design with the fitted values; None if the data do not determine one of them"""
     parameters: tuple[FittedParameter, ...]
     correlation: NDArray[np.float64]
     """Of the fitted values, shape ``(k, k)``; NaN where the data do not determine one"""
@@ -70,7 +67,7 @@ class Calibration:
     noise: Noise
     """As stated or taken by default"""
     counts: dict[str, int]
-    """Samples by what became of them: slipping, with pressure, held, or why not used"""
+    """Samples by what became of them: slipping, with pressure, held, or why not used; and holds"""
     warnings: tuple[str, ...]
     """What is to be known before the values are used, a sentence each"""
     roles: NDArray[np.str_]
@@ -78,10 +75,15 @@ class Calibration:
     distance: BoundaryDistance
     """Of every sample from the fitted boundary; NaN where it was not used"""
 
+    @property
+    def undetermined(self) -> list[str]:
+        """Names of the parameters that the data do not determine."""
+        return [parameter.name for parameter in self.parameters if parameter.value is None]
+
     def as_dict(self) -> dict[str, Any]:
         """Return the result without the arrays of samples, ready for JSON."""
         return {
-            'design': dataclasses.asdict(self.design),
+            'design': None if self.design is None else dataclasses.asdict(self.design),
             'parameters': [parameter._asdict() for parameter in self.parameters],
             'correlation': [
                 [None if math.isnan(value) else value for value in row]

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from .array_roots import Floats
-from .calibration_result import HELD, FittedParameter, ResidualStatistics
+from .calibration_result import FittedParameter, ResidualStatistics
 from .design import DesignParameter
 from .identification import Identification
 
 STRONG_CORRELATION = 0.99
-NORMAL_MEDIAN = 0.6745
-"""Median of the absolute value of Gaussian noise, in standard deviations"""
+SIGNIFICANT = 3.0
+"""Standard deviations beyond which a scatter is not by chance"""
 
 
 def calibration_warnings(
@@ -33,8 +33,9 @@ def calibration_warnings(
         The fitted parameters, each with the ends of the range that was searched, in SI.
     """
     found = []
-    equations = residuals.degrees_of_freedom + len(fitted)
-    if residuals.degrees_of_freedom < 0:
+    known = len(fitted) - len(identification.null_directions)
+    equations = residuals.degrees_of_freedom + known
+    if equations < len(fitted):
         found.append(
             f'{equations} equations cannot determine {len(fitted)} parameters: '
             'record more slips, or fit fewer parameters'
@@ -56,21 +57,21 @@ def calibration_warnings(
                 f'{names[i]} and {names[j]} are correlated by {correlation:+.4f}: the data tell '
                 'a combination of them far better than either; measure one in another way'
             )
-    if residuals.degrees_of_freedom > 0 and residuals.median > 2.0 * NORMAL_MEDIAN:
-        times = residuals.median / NORMAL_MEDIAN
+    if residuals.significance > SIGNIFICANT:
         states = (
             'some states are wrong'
             if states_are_known
             else 'not all samples are slipping, as was taken without a state'
         )
         found.append(
-            f'the distances are {times:.1f} times what the stated noise explains: '
-            f'the noise is larger, {states}, or the model does not fit'
+            f'the distances scatter {residuals.scale:.2g} times as much as the stated noise '
+            f'explains: the noise is larger, {states}, or the model does not fit; the errors are '
+            'for the larger noise'
         )
-    if residuals.held_violations:
+    if residuals.hold_violations:
         found.append(
-            f'{residuals.held_violations} of {counts[HELD]} held samples lie beyond the fitted '
-            'boundary of slip by more than 3 standard deviations'
+            f'{residuals.hold_violations} of {counts["holds"]} holds lie beyond the fitted '
+            'boundary of slip by more than noise explains'
         )
     return found
 
@@ -92,6 +93,8 @@ def _doubts(
     parameter: DesignParameter, ends: Sequence[float], fitted: FittedParameter
 ) -> list[str]:
     found = []
+    if fitted.value is None or fitted.standard_error is None:
+        return []
     width = parameter.maximum - parameter.minimum
     for end in ends:
         if abs(fitted.value - end) < 1e-9 * width:
@@ -100,7 +103,7 @@ def _doubts(
                 'the data ask for a value beyond it'
             )
     error = fitted.standard_error
-    if error is not None and error > 0.5 * abs(fitted.value):
+    if error > 0.5 * abs(fitted.value):
         found.append(
             f'{parameter.name} is hardly identifiable: its standard error is '
             f'{100.0 * error / max(abs(fitted.value), 1e-300):.3g} % of its value'
