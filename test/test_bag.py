@@ -1,6 +1,8 @@
 """Recordings in ROS 2 bags: topics, times, and what of a damaged file is kept."""
 
 import math
+import shutil
+import sqlite3
 
 import bags
 import numpy as np
@@ -134,11 +136,13 @@ def test_of_a_truncated_file_the_beginning_is_read(tmp_path, plugin, share):
     file.write_bytes(content[: int(share * len(content))])
     recording = load_recording(file)
     assert 0.3 * len(whole) < len(recording) <= len(whole)
-    assert recording.tension_s.tolist() == whole.tension_s[: len(recording)].tolist()
+    assert set(recording.tensions()) <= set(whole.tensions())
     assert 'truncated or damaged' in recording.damage_summary
 
 
-def test_a_damaged_chunk_is_named_and_those_after_it_are_read(tmp_path):
+@pytest.fixture
+def chunks(tmp_path):
+    """An MCAP file of 500 messages, and the index of its chunks."""
     from mcap.reader import make_reader
     from mcap.writer import Writer
 
@@ -154,15 +158,169 @@ def test_a_damaged_chunk_is_named_and_those_after_it_are_read(tmp_path):
             data = bytes(bags.STORE.serialize_cdr(bags.array(1.0, float(index)), kind))
             writer.add_message(channel, ORIGIN + index, data, ORIGIN + index)
         writer.finish()
-    content = bytearray(file.read_bytes())
     with file.open('rb') as stream:
-        chunks = make_reader(stream).get_summary().chunk_indexes
-    content[chunks[1].chunk_start_offset + 100] ^= 0xFF
+        return file, make_reader(stream).get_summary().chunk_indexes
+
+
+def flip(file, *places):
+    content = bytearray(file.read_bytes())
+    for place in places:
+        content[place] ^= 0xFF
     file.write_bytes(content)
+
+
+@pytest.mark.parametrize('chunk', [0, 1, -1])
+@pytest.mark.parametrize('byte', [0, 4, 100], ids=['kind', 'length', 'content'])
+def test_a_damaged_chunk_is_named_and_all_others_are_read(chunks, chunk, byte):
+    file, index = chunks
+    start = index[chunk].chunk_start_offset
+    flip(file, start + byte)
     recording = load_recording(file)
-    assert 400 < len(recording) < 500
-    assert recording.tension_s[[0, -1]].tolist() == [0.0, 499.0]
-    assert 'a part at byte' in recording.damage_summary
+    lost = set(range(500)) - set(recording.tension_s)
+    assert 0 < len(lost) < 40
+    assert len(recording) + len(lost) == 500
+    (damage,) = recording.damage
+    assert damage.startswith(f'a part at byte {start} cannot be read (')
+
+
+@pytest.mark.parametrize('place', ['magic', 'header', 'index', 'footer', 'last magic'])
+def test_damage_outside_the_chunks_costs_no_message(chunks, place):
+    file, index = chunks
+    end = index[3].chunk_start_offset + index[3].chunk_length
+    flip(
+        file, {'magic': 0, 'header': 10, 'index': end + 1, 'footer': -30, 'last magic': -1}[place]
+    )
+    assert load_recording(file).tension_s.tolist() == list(range(500))
+
+
+def test_a_damaged_summary_is_named_and_not_believed(chunks):
+    file, _ = chunks
+    content = file.read_bytes()
+    flip(file, content.rindex(b'/tensions'))
+    recording = load_recording(file)
+    assert len(recording) == 500
+    assert recording.damage == ('its end, the summary, is truncated or damaged',)
+
+
+def test_messages_of_a_topic_that_nothing_defines_are_counted(chunks):
+    file, index = chunks
+    flip(file, index[0].chunk_start_offset + 100, -30)
+    with pytest.raises(RecordingError, match='no topic /tensions; there are: none; a part at'):
+        load_recording(file)
+
+
+def test_messages_that_are_not_where_the_summary_counts_them_are_missed(tmp_path):
+    file = tmp_path / 'run.mcap'
+    from mcap.writer import Writer
+
+    with file.open('wb') as stream:
+        writer = Writer(stream, use_chunking=False)
+        writer.start()
+        kind = 'std_msgs/msg/Float64MultiArray'
+        schema = writer.register_schema(kind, 'ros2msg', b'')
+        channel = writer.register_channel('/tensions', 'cdr', schema)
+        data = bytes(bags.STORE.serialize_cdr(bags.array(1.0, 2.0), kind))
+        for time in (7, 8, 2**63):
+            message = stream.tell()
+            writer.add_message(channel, time, data, time)
+        writer.finish()
+    recording = load_recording(file)
+    assert len(recording) == 2
+    assert recording.damage == ('1 messages on /tensions cannot be read',)
+    flip(file, message)
+    assert load_recording(file).damage == ('1 messages are missing that its summary counts',)
+
+
+@pytest.fixture
+def database(tmp_path):
+    return write_bag(tmp_path / 'bag', session(), 'SQLITE3')
+
+
+@pytest.mark.parametrize(
+    ('change', 'damage'),
+    [
+        ("timestamp = 'x'", '1 messages on /tensions cannot be read'),
+        ('timestamp = 1e300', '1 messages on /tensions cannot be read'),
+        ('timestamp = -9223372036854775808', '1 messages on /tensions cannot be read'),
+        ("data = x'00'", '1 messages on /tensions cannot be read'),
+        ("data = 'x'", '1 messages on /tensions cannot be read'),
+        ('data = 7', '1 messages on /tensions cannot be read'),
+        ("topic_id = 'x'", '1 messages are of topics that it does not define'),
+        ('topic_id = 99', '1 messages are of topics that it does not define'),
+    ],
+)
+def test_a_row_that_is_no_message_is_counted_and_the_others_are_read(database, change, damage):
+    with sqlite3.connect(database) as connection:
+        connection.execute(f'UPDATE messages SET {change} WHERE id = 1')
+    connection.close()
+    recording = load_recording(database)
+    assert recording.tension_s == pytest.approx(1.51 + 0.01 * np.arange(9))
+    assert recording.damage == (damage,)
+
+
+@pytest.mark.parametrize('name', ["x'ff'", 'NULL', '7'])
+def test_a_topic_without_a_name_leaves_the_others(database, name):
+    with sqlite3.connect(database) as connection:
+        connection.execute('PRAGMA writable_schema = ON')
+        connection.execute("UPDATE sqlite_master SET sql = replace(sql, 'NOT NULL', '')")
+    connection.close()
+    with sqlite3.connect(database) as connection:
+        angle = "name = '/measured_bend_angle'"
+        connection.execute(f'UPDATE topics SET name = {name}, type = {name} WHERE {angle}')
+    connection.close()
+    recording = load_recording(database)
+    assert len(recording) == 10
+    assert recording.bend_angle is None
+
+
+def test_rows_that_are_missing_from_a_table_are_missed(database):
+    """Damage within a page can hide rows, but they still stand in the index of times."""
+    with sqlite3.connect(database) as connection:
+        connection.execute('PRAGMA writable_schema = ON')
+        connection.execute("DELETE FROM sqlite_master WHERE type = 'index'")
+    connection.close()
+    with sqlite3.connect(database) as connection:
+        connection.execute('DELETE FROM messages WHERE id = 4')
+    connection.close()
+    assert 'messages may be missing' in load_recording(database).damage_summary
+
+
+@pytest.fixture
+def unfinished(tmp_path, database):
+    """The folder of a bag whose last messages are in SQLite's log only."""
+    folder = tmp_path / 'unfinished'
+    folder.mkdir()
+    connection = sqlite3.connect(database)
+    connection.execute('PRAGMA journal_mode = WAL')
+    for _ in range(3):
+        connection.execute(
+            'INSERT INTO messages (topic_id, timestamp, data) '
+            'SELECT topic_id, timestamp + 1000000000, data FROM messages WHERE id = 1'
+        )
+        connection.commit()
+    for ending in ('', '-wal'):
+        shutil.copyfile(f'{database}{ending}', folder / f'run.db3{ending}')
+    connection.close()
+    return folder
+
+
+@pytest.mark.parametrize('mode', [0o755, 0o555])
+def test_what_is_in_the_log_of_a_database_is_read_and_left_alone(unfinished, mode):
+    before = {file.name: file.read_bytes() for file in unfinished.iterdir()}
+    unfinished.chmod(mode)
+    recording = load_recording(unfinished / 'run.db3')
+    unfinished.chmod(0o755)
+    assert len(recording) == 13
+    assert recording.damage == ()
+    assert {file.name: file.read_bytes() for file in unfinished.iterdir()} == before
+
+
+@pytest.mark.parametrize(('place', 'kept'), [(-100, 12), (10, 10), (20, 10), (32 + 24, 10)])
+def test_damage_in_the_log_of_a_database_is_named(unfinished, place, kept):
+    flip(unfinished / 'run.db3-wal', place)
+    recording = load_recording(unfinished)
+    assert len(recording) == kept
+    assert 'pages of its -wal are damaged' in recording.damage_summary
 
 
 def test_in_a_folder_a_file_that_is_no_bag_is_named_and_the_others_are_read(tmp_path):

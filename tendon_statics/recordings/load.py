@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .errors import RecordingError
+from .errors import RecordingError, one_line
 from .recording import Recording
 from .topics import BagTopics
 
@@ -53,7 +53,7 @@ def load_recording(path: str | Path, topics: BagTopics | None = None) -> Recordi
 
             return load_csv(path)
     except RecordingError as error:
-        raise RecordingError(f'{path}: {error}') from None
+        raise RecordingError(f'{path}: {one_line(error)}') from None
     except OSError as error:
         raise RecordingError(f'{path}: it cannot be read: {error.strerror or error}') from None
     raise RecordingError(

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .errors import RecordingError
+from .errors import RecordingError, one_line
 
 Floats = npt.NDArray[np.float64]
 
@@ -45,7 +45,7 @@ class Recording:
     name: str = 'recording'
     """Where it comes from, without the folder"""
     damage: tuple[str, ...] = ()
-    """What of the file could not be read, place by place"""
+    """What of the file could not be read, place by place, each in one line"""
 
     def __post_init__(self) -> None:
         """Take whatever NumPy makes an array of.
@@ -64,6 +64,7 @@ class Recording:
         if self.state is not None:
             object.__setattr__(self, 'state', list(self.state))
             _check_length('state', self.state, len(self))
+        object.__setattr__(self, 'damage', tuple(one_line(place) for place in self.damage))
 
     def __len__(self) -> int:
         return len(self.tension_l)

@@ -1,0 +1,133 @@
+"""Messages in SQLite files, down to whatever of a damaged one can be read."""
+
+from __future__ import annotations
+
+import shutil
+import sqlite3
+import tempfile
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+from typing import Any
+
+from .bag_record import UNKNOWN_TYPE, Record
+from .errors import RecordingError
+
+WAL = '-wal'
+"""Ending of the log in which SQLite keeps what has not yet come to the file itself"""
+
+WAL_HEADER, WAL_FRAME_HEADER = 32, 24
+"""Bytes at the beginning of a log, and before each page in it"""
+
+
+def sqlite_records(path: Path, types: dict[str, str], damage: list[str]) -> Iterator[Record]:
+    """Read the messages of an SQLite file row by row, up to where it is damaged.
+
+    Parameters
+    ----------
+    types : dict
+        Gets every topic of the bag, with its type.
+    damage : list
+        Gets what cannot be read.
+
+    Raises
+    ------
+    RecordingError
+        If it is no SQLite file, or has no tables of a bag.
+    """
+    path.open('rb').close()  # for the system's own reason, if it cannot be
+    with _opened(path) as database:
+        try:
+            lost = _lost_pages(database, path.with_name(path.name + WAL))
+            # So that a file that is shorter than its header says is read all the same.
+            database.execute('PRAGMA writable_schema = ON')
+            topics = {
+                key: (_text(name), _text(kind) or UNKNOWN_TYPE)
+                for key, name, kind in database.execute('SELECT id, name, type FROM topics')
+            }
+            definitions = _definitions(database)
+            rows = database.execute('SELECT topic_id, timestamp, data FROM messages')
+        except (sqlite3.Error, MemoryError) as error:
+            raise RecordingError(f'it cannot be read as a bag: {error}') from None
+        types.update((name, kind) for name, kind in topics.values() if name)
+        if lost:
+            damage.append(f'{lost} pages of its {WAL} are damaged or were not committed')
+        unknown = 0
+        try:
+            for key, log_time, data in rows:
+                name, kind = topics.get(key, ('', ''))
+                if name:
+                    yield Record(name, kind, definitions.get(kind, ''), log_time, data)
+                else:
+                    unknown += 1
+        except (sqlite3.Error, MemoryError) as error:
+            damage.append(f'it is truncated or damaged ({error})')
+        if unknown:
+            damage.append(f'{unknown} messages are of topics that it does not define')
+        if not damage:
+            damage.extend(_contradictions(database))
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[sqlite3.Connection]:
+    """Open a file without changing it or leaving anything beside it."""
+    with _with_journals(path) as uri:
+        try:
+            database = sqlite3.connect(uri, uri=True)
+        except sqlite3.Error as error:
+            raise RecordingError(f'it cannot be read as a bag: {error}') from None
+        # Damaged text need not be UTF-8, and what should be a blob may have become a text.
+        database.text_factory = bytes
+        with closing(database):
+            yield database
+
+
+@contextmanager
+def _with_journals(path: Path) -> Iterator[str]:
+    """Give the URI of a file, or of a copy of it into which SQLite may write its journals."""
+    journals = [path.with_name(path.name + ending) for ending in (WAL, '-journal')]
+    journals = [journal for journal in journals if journal.is_file() and journal.stat().st_size]
+    if not journals:
+        yield f'{path.absolute().as_uri()}?mode=ro&immutable=1'
+        return
+    with tempfile.TemporaryDirectory(prefix='tendon-statics-') as folder:
+        for file in (path, *journals):
+            shutil.copyfile(file, Path(folder, file.name))
+        yield Path(folder, path.name).as_uri()
+
+
+def _lost_pages(database: sqlite3.Connection, wal: Path) -> int:
+    """Count the pages in a log that SQLite leaves out: those from the first damaged one on."""
+    if not wal.is_file():
+        return 0
+    content = wal.read_bytes()
+    page_size, salt = int.from_bytes(content[8:12], 'big'), content[16:24]
+    frames = range(WAL_HEADER, len(content), WAL_FRAME_HEADER + page_size)
+    written = sum(content[start + 8 : start + 16] == salt for start in frames)
+    _, taken, _ = database.execute('PRAGMA wal_checkpoint').fetchone()
+    return max(written, len(content) > 0) - max(taken, 0)
+
+
+def _definitions(database: sqlite3.Connection) -> dict[str, str]:
+    """Definitions of the message types; bags before ROS 2 Iron hold none."""
+    tables = {name for (name,) in database.execute('SELECT name FROM sqlite_master')}
+    if b'message_definitions' not in tables:
+        return {}
+    rows = database.execute(
+        'SELECT topic_type, encoded_message_definition FROM message_definitions'
+    )
+    return {_text(kind): _text(definition) for kind, definition in rows}
+
+
+def _contradictions(database: sqlite3.Connection) -> Iterator[str]:
+    """Say whether the pages of the file contradict each other, so that rows may be missing."""
+    try:
+        ((found,),) = database.execute('PRAGMA integrity_check(1)').fetchall()
+    except (sqlite3.Error, ValueError) as error:
+        found = str(error).encode()
+    if found != b'ok':
+        yield f'it is damaged, messages may be missing ({_text(found)})'
+
+
+def _text(value: Any) -> str:
+    return value.decode(errors='replace') if isinstance(value, bytes) else ''
