@@ -68,14 +68,47 @@ def test_a_file_without_a_recording_is_named_with_the_reason(file, text, named):
         load_recording(path)
 
 
-@pytest.mark.parametrize('line', ['1,x', '1', '1,2,3', '"1,2'])
-def test_a_damaged_line_is_named_and_the_rest_is_kept(file, line):
-    recording = load_recording(file(f'tension_l,tension_s\n1,2\n{line}\n3,4\n'))
+@pytest.mark.parametrize(
+    'line',
+    [
+        b'1,x',
+        b'1',
+        b'1,2,3',
+        b'"1,2',
+        b'1,\xff2',
+        b'1,2\0',
+        b'\0' * 3,
+        b'1,1_5',
+        b'"' + b'1' * 200_000,
+    ],
+)
+def test_a_damaged_line_is_named_and_the_rest_is_kept(tmp_path, line):
+    path = tmp_path / 'run.csv'
+    path.write_bytes(b'tension_l,tension_s\n1,2\n' + line + b'\n3,4\n')
+    recording = load_recording(path)
     assert recording.tensions() == [(1.0, 2.0), (3.0, 4.0)]
     (damage,) = recording.damage
     assert damage.startswith('line 3, ')
+    assert len(damage) < 300
     with pytest.raises(RecordingError, match=r'run\.csv: line 3'):
         recording.whole()
+
+
+def test_what_is_no_utf_8_in_a_comment_and_separators_of_unicode_in_a_field_do_no_harm(tmp_path):
+    path = tmp_path / 'run.csv'
+    content = '# für\n'.encode('latin-1') + 'note,tension_l,tension_s\r\na\u2028b,1,2\r'.encode()
+    path.write_bytes(content)
+    assert load_recording(path).whole().tensions() == [(1.0, 2.0)]
+
+
+def test_of_a_last_line_without_an_end_no_number_is_believed(file):
+    text = 'tension_l,tension_s\n1.5,2.5\n1.5,2.0512\n'
+    assert load_recording(file(text)).damage == ()
+    for cut in range(1, 5):
+        recording = load_recording(file(text[:-cut]))
+        assert recording.tensions() == [(1.5, 2.5)]
+        assert 'line 3' in recording.damage_summary
+        assert 'has no end and may have been cut' in recording.damage_summary
 
 
 def test_of_much_damage_a_part_is_named_and_the_rest_is_counted(file):

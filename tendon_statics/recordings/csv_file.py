@@ -2,43 +2,49 @@
 
 from __future__ import annotations
 
+import codecs
 import csv
 import math
+from collections.abc import Iterator
 from pathlib import Path
 
 from .columns import Column, find_columns
 from .errors import RecordingError
 from .recording import Recording
 
+LINE_ENDS = (b'\n', b'\r')
+
+MOST_SHOWN = 80
+"""Characters of a damaged line that are shown"""
+
 
 def load_csv(path: Path) -> Recording:
     """Read a CSV file whose first line names the columns, as `load_recording` does.
 
     Empty lines and lines that begin with ``#`` are left alone; an empty field is NaN. A line that
-    is not as long as the first, or has no number where there should be one, is damage.
+    is not as long as the first, is not UTF-8 or has no number where there should be one is damage.
+    So is a last line without an end: a number in it that was cut would still look like one.
     """
-    try:
-        lines = path.read_text(encoding='utf-8-sig').splitlines()
-    except UnicodeDecodeError:
-        raise RecordingError('it is not a text file in UTF-8') from None
-    numbered = [
-        (number, line)
-        for number, line in enumerate(lines, start=1)
-        if line.strip() and not line.startswith('#')
-    ]
-    titles = _fields(numbered[0][1]) if numbered else []
+    numbered = list(_lines(path.read_bytes()))
+    titles = _titles(numbered[0][1]) if numbered else []
     columns = find_columns(titles)
     values: dict[str, list[float]] = {name: [] for name in columns if name != 'state'}
     states: list[str] = []
     damage = []
     for number, line in numbered[1:]:
-        fields = _fields(line)
         try:
+            fields = _fields(line)
             row = [_number(fields, columns[name]) for name in values]
             if len(fields) != len(titles):
                 raise ValueError(f'{len(fields)} fields')
-        except (ValueError, IndexError):
-            damage.append(f'line {number}, {line!r}, is not a row of {",".join(titles)}')
+        except (ValueError, IndexError, csv.Error):
+            damage.append(f'line {number}, {_shown(line)}, is not a row of {",".join(titles)}')
+            continue
+        if not line.endswith(LINE_ENDS):
+            damage.append(
+                f'line {number}, {_shown(line)}, has no end and may have been cut; '
+                'if it is whole, add an end of line'
+            )
             continue
         for kept, value in zip(values.values(), row, strict=True):
             kept.append(value)
@@ -55,11 +61,38 @@ def load_csv(path: Path) -> Recording:
     )
 
 
+def _lines(content: bytes) -> Iterator[tuple[int, bytes]]:
+    """Give the lines that are not empty and no comments, with their numbers and ends."""
+    lines = content.removeprefix(codecs.BOM_UTF8).splitlines(keepends=True)
+    for number, line in enumerate(lines, start=1):
+        if line.strip() and not line.startswith(b'#'):
+            yield number, line
+
+
+def _titles(line: bytes) -> list[str]:
+    try:
+        return _fields(line)
+    except (ValueError, csv.Error):
+        raise RecordingError(
+            'it is not a text file in UTF-8 whose first line names columns'
+        ) from None
+
+
+def _fields(line: bytes) -> list[str]:
+    text = line.decode().rstrip('\r\n')
+    if '\0' in text:
+        raise ValueError('a NUL')
+    fields = next(csv.reader([text])) if '"' in text else text.split(',')
+    return [field.strip() for field in fields]
+
+
 def _number(fields: list[str], column: Column) -> float:
     text = fields[column.place]
+    if '_' in text:
+        raise ValueError(text)  # Python takes 1_5 for 15.
     return column.factor * float(text) if text else math.nan
 
 
-def _fields(line: str) -> list[str]:
-    fields = next(csv.reader([line])) if '"' in line else line.split(',')
-    return [field.strip() for field in fields]
+def _shown(line: bytes) -> str:
+    text = line.decode(errors='replace').rstrip('\r\n')
+    return repr(text if len(text) <= MOST_SHOWN else f'{text[:MOST_SHOWN]}…')

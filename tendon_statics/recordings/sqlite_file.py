@@ -105,7 +105,7 @@ def _lost_pages(database: sqlite3.Connection, wal: Path) -> int:
     frames = range(WAL_HEADER, len(content), WAL_FRAME_HEADER + page_size)
     written = sum(content[start + 8 : start + 16] == salt for start in frames)
     _, taken, _ = database.execute('PRAGMA wal_checkpoint').fetchone()
-    return max(written, len(content) > 0) - max(taken, 0)
+    return max(written, len(content) > 0) - max(int(taken), 0)
 
 
 def _definitions(database: sqlite3.Connection) -> dict[str, str]:
