@@ -76,3 +76,39 @@ def test_a_damaged_row_group_is_named_and_the_others_are_kept(file):
     recording = load_recording(path)
     assert len(recording) == 2000
     assert recording.damage_summary.startswith('rows 1000 to 1999: ')
+
+
+@pytest.mark.parametrize('checksums', [False, True])
+def test_a_row_group_whose_values_cannot_be_right_is_damage(file, checksums):
+    tension = np.arange(1.0, 301.0)
+    path = file(
+        {'tension_l': tension, 'tension_s': tension, 'state': ['held'] * 100 + ['slipping'] * 200},
+        row_group_size=100,
+        use_dictionary=False,
+        compression='none',
+        write_page_checksum=checksums,
+    )
+    content = path.read_bytes()
+    damaged = np.float64(50.0).tobytes() if checksums else b'held'
+    path.write_bytes(content.replace(damaged, b'\xff' * len(damaged)))
+    recording = load_recording(path)
+    assert recording.tension_l.tolist() == tension[100:].tolist()
+    (damage,) = recording.damage
+    assert damage.startswith('rows 0 to 99: ')
+    assert '\n' not in damage
+
+
+def test_wherever_a_file_is_damaged_the_error_is_one_line(file):
+    tension = np.linspace(1.0, 2.0, 300)
+    path = file({'tension_l': tension, 'tension_s': tension}, row_group_size=100)
+    content = path.read_bytes()
+    for place in range(0, len(content), 97):
+        path.write_bytes(content[:place] + bytes(64) + content[place + 64 :])
+        try:
+            recording = load_recording(path)
+        except RecordingError as error:
+            assert str(error).startswith(f'{path}: ')
+            assert '\n' not in str(error)
+        else:
+            assert '\n' not in recording.damage_summary
+            assert recording.damage or len(recording) == 300

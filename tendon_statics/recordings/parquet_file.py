@@ -19,10 +19,12 @@ def load_parquet(path: Path) -> Recording:
     """
     pa, parquet = needed('pyarrow', 'pyarrow.parquet', purpose='Parquet files')
     damage, tables = [], []
+    path.open('rb').close()  # for the system's own reason, if it cannot be
     try:
-        file = parquet.ParquetFile(path)
-    except (pa.ArrowException, pa.ArrowInvalid) as error:
-        raise RecordingError(f'it cannot be read as Parquet: {_one_line(error)}') from None
+        file = parquet.ParquetFile(path, page_checksum_verification=True)
+    except Exception as error:
+        # Damage makes the library raise what its unpacking happens to.
+        raise RecordingError(f'it cannot be read as Parquet: {error}') from None
     with file:
         columns = find_columns(file.schema_arrow.names)
         titles = [file.schema_arrow.names[column.place] for column in columns.values()]
@@ -30,9 +32,11 @@ def load_parquet(path: Path) -> Recording:
         for group in range(file.num_row_groups):
             rows = file.metadata.row_group(group).num_rows
             try:
-                tables.append(file.read_row_group(group, columns=titles))
-            except (pa.ArrowException, OSError) as error:
-                damage.append(f'rows {first_row} to {first_row + rows - 1}: {_one_line(error)}')
+                part = file.read_row_group(group, columns=titles)
+                part.validate(full=True)  # texts are UTF-8
+                tables.append(part)
+            except Exception as error:
+                damage.append(f'rows {first_row} to {first_row + rows - 1}: {error}')
             first_row += rows
     table = pa.concat_tables(tables) if tables else None
     if table is None or len(table) == 0:
@@ -57,7 +61,3 @@ def load_parquet(path: Path) -> Recording:
         name=path.name,
         damage=tuple(damage),
     )
-
-
-def _one_line(error: Exception) -> str:
-    return ' '.join(str(error).split())
