@@ -8,6 +8,7 @@ import bags
 import numpy as np
 import pytest
 from bags import ORIGIN, write_bag
+from programs import assert_refused, run
 
 from tendon_statics.recordings.errors import RecordingError
 from tendon_statics.recordings.load import load_recording
@@ -115,14 +116,91 @@ def test_a_message_of_another_length_is_kept_as_nan(tmp_path):
         (BagTopics(tensions=('t',)), r'no topic /t; there are: /measured_bend_angle \(std_msgs'),
         (BagTopics(bend_angle='b'), 'no topic /b'),
         (BagTopics(tensions=('measured_bend_angle',)), 'is a std_msgs/msg/Float64; .* is needed'),
-        (BagTopics(tensions=('tensions', 'tensions')), 'WrenchStamped is needed'),
-        (BagTopics(tensions=()), '0 topics of tensions'),
+        (BagTopics(tensions=('tensions', 'measured_bend_angle')), 'WrenchStamped is needed'),
     ],
 )
 def test_a_topic_that_is_not_there_is_named_with_those_that_are(tmp_path, topics, named):
     file = write_bag(tmp_path / 'bag', session())
     with pytest.raises(RecordingError, match=f'^{file}: .*{named}'):
         load_recording(file, topics)
+
+
+@pytest.mark.parametrize(
+    ('given', 'named'),
+    [
+        ({'tensions': ()}, '0 names of a topic of tensions are given, not 1 or 2'),
+        ({'tensions': ('a', 'b', 'c')}, '3 names of a topic of tensions'),
+        ({'tensions': ('a', '/a')}, 'topic of tensions is given twice: a'),
+        ({'tensions': ('a', '')}, 'topic of tensions is empty'),
+        ({'cable_names': ('a',)}, '1 names of a cable are given, not 2'),
+        ({'cable_names': ('a', 'b', 'c')}, '3 names of a cable'),
+        ({'cable_names': ('a', 'a')}, 'a cable is given twice: a'),
+        ({'bend_angle': ''}, 'name of a topic is empty'),
+        ({'force_component': 'w'}, "is 'w'; there are x, y, z, norm"),
+        ({'max_skew': math.nan}, 'largest skew is nan s'),
+        ({'max_skew': -0.01}, 'largest skew is -0.01 s'),
+        ({'max_skew': math.inf}, 'largest skew is inf s'),
+    ],
+)
+def test_what_no_bag_can_hold_is_refused_before_one_is_read(given, named):
+    with pytest.raises(RecordingError, match=named):
+        BagTopics(**given)
+
+
+def test_options_that_no_bag_can_meet_are_refused_in_one_line():
+    assert_refused(run('replay', 'missing.mcap', '--tensions-topic', ''), '0 names')
+    assert_refused(run('replay', 'missing.mcap', '--max-skew', 'nan'), 'skew is nan')
+
+
+def test_a_skew_may_be_as_large_as_one_likes(tmp_path):
+    file = write_bag(tmp_path / 'bag', session())
+    assert np.isfinite(load_recording(file, BagTopics(max_skew=1e308)).bend_angle).all()
+
+
+NAMELESS = bags.joint_state([], position=[0.3], effort=[1.0, 2.0])
+
+
+@pytest.mark.parametrize(
+    ('message', 'named'),
+    [
+        (bags.array(1.0, 2.0, 3.0), '/t hold 3 numbers; two are needed'),
+        (bags.joint_state(['a', 'cable_s'], effort=[1.0, 2.0]), 'that of: a, cable_s$'),
+        (bags.joint_state(['cable_l', 'cable_s'], position=[1.0, 2.0]), 'that of: none$'),
+        (NAMELESS, 'the effort of cable_l and cable_s; there is that of: none$'),
+    ],
+)
+def test_tensions_that_are_in_no_message_are_refused_with_what_there_is(tmp_path, message, named):
+    file = write_bag(tmp_path / 'bag', [('/t', 0.0, message), ('/t', 0.1, message)])
+    with pytest.raises(RecordingError, match=named):
+        load_recording(file, BagTopics(('t',)))
+
+
+@pytest.mark.parametrize(
+    ('message', 'joint', 'named'),
+    [
+        (bags.joint_state(['a'], position=[1.0]), 'tip', 'position of tip; there is that of: a$'),
+        (bags.joint_state(['a'], effort=[1.0]), None, 'position of a; there is that of: none$'),
+        (NAMELESS, None, 'position of a joint; there is that of: none$'),
+    ],
+)
+def test_an_angle_that_is_in_no_message_is_refused_with_what_there_is(
+    tmp_path, message, joint, named
+):
+    file = write_bag(tmp_path / 'bag', [*session(2), ('/camera', 0.0, message)])
+    with pytest.raises(RecordingError, match=named):
+        load_recording(file, BagTopics(bend_angle='camera', joint_name=joint))
+
+
+def test_a_pair_of_which_one_topic_is_empty_is_refused(tmp_path):
+    messages = [('/l', 0.0, bags.wrench(0.0, 0.0, 1.0, 0.0)), ('/s', 0.0, bags.text(''))]
+    file = write_bag(tmp_path / 'bag', messages, 'SQLITE3')
+    with sqlite3.connect(file) as connection:
+        kind = "SELECT type FROM topics WHERE name = '/l'"
+        connection.execute(f"UPDATE topics SET type = ({kind}) WHERE name = '/s'")
+        connection.execute('DELETE FROM messages WHERE id = 2')
+    connection.close()
+    with pytest.raises(RecordingError, match=r'there is no message on /s$'):
+        load_recording(file, BagTopics(('l', 's')))
 
 
 @pytest.mark.parametrize(

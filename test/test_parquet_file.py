@@ -106,9 +106,8 @@ def test_wherever_a_file_is_damaged_the_error_is_one_line(file):
         path.write_bytes(content[:place] + bytes(64) + content[place + 64 :])
         try:
             recording = load_recording(path)
+            said, samples = recording.damage_summary, len(recording)
         except RecordingError as error:
-            assert str(error).startswith(f'{path}: ')
-            assert '\n' not in str(error)
-        else:
-            assert '\n' not in recording.damage_summary
-            assert recording.damage or len(recording) == 300
+            said, samples = str(error), 0
+        assert '\n' not in said
+        assert said or samples == 300

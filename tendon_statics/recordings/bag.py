@@ -10,10 +10,10 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from .bag_storage import Messages, read_messages
+from .bag_storage import END_OF_TIME, Messages, read_messages
 from .errors import RecordingError
 from .recording import Floats, Recording
-from .topics import FORCE_COMPONENTS, BagTopics
+from .topics import BagTopics, full_name
 
 DEFAULT_BEND_ANGLE = '/measured_bend_angle'
 DEFAULT_PRESSURE = '/measured_pressure'
@@ -41,30 +41,23 @@ def load_bag(path: Path, topics: BagTopics) -> Recording:
     was recorded. Angle, pressure and state are those of the message nearest in time, if it is not
     farther than `BagTopics.max_skew`; so is the second tension of a pair.
     """
-    if len(topics.tensions) not in (1, 2):
-        raise RecordingError(
-            f'{len(topics.tensions)} topics of tensions are named; '
-            'one is needed, or a pair for cables l and s'
-        )
     required = [*topics.tensions, topics.bend_angle, topics.pressure, topics.state]
     wanted = [*required, DEFAULT_BEND_ANGLE, DEFAULT_PRESSURE]
-    bag = read_messages(path, [_full(name) for name in wanted if name])
+    bag = read_messages(path, [full_name(name) for name in wanted if name])
     for name in filter(None, required):
-        if _full(name) not in bag.types:
+        if full_name(name) not in bag.types:
             there = ', '.join(f'{topic} ({kind})' for topic, kind in sorted(bag.types.items()))
             raise RecordingError(
-                f'there is no topic {_full(name)}; there are: {there or "none"}{_why(bag)}'
+                f'there is no topic {full_name(name)}; there are: {there or "none"}{_why(bag)}'
             )
-    tensions = _tensions(bag, topics)
-    if not len(tensions.times):
-        raise RecordingError(f'there is no message on {_full(topics.tensions[0])}{_why(bag)}')
+    skew = round(min(topics.max_skew * 1e9, END_OF_TIME))
+    tensions = _tensions(bag, topics, skew)
     origin = int(tensions.times[0])
-    skew = round(topics.max_skew * 1e9)
 
     def joined(name: str, series: Callable[[Messages, str], _Series]) -> Floats | None:
-        if _full(name) not in bag.types:
+        if full_name(name) not in bag.types:
             return None
-        return _nearest_numbers(series(bag, _full(name)), tensions.times, skew)
+        return _nearest_numbers(series(bag, full_name(name)), tensions.times, skew)
 
     return Recording(
         tension_l=np.array([pair[0] for pair in tensions.values]),
@@ -74,7 +67,9 @@ def load_bag(path: Path, topics: BagTopics) -> Recording:
             lambda bag, name: _bend_angles(bag, name, topics.joint_name),
         ),
         pressure=joined(topics.pressure or DEFAULT_PRESSURE, _numbers),
-        state=_states(bag, _full(topics.state), tensions.times, skew) if topics.state else None,
+        state=_states(bag, full_name(topics.state), tensions.times, skew)
+        if topics.state
+        else None,
         time=1e-9 * (tensions.times - origin).astype(np.float64),
         time_origin=origin,
         name=path.name,
@@ -84,11 +79,6 @@ def load_bag(path: Path, topics: BagTopics) -> Recording:
 
 def _why(bag: Messages) -> str:
     return f'; {bag.damage[0]}' if bag.damage else ''
-
-
-def _full(topic: str) -> str:
-    """Return a topic's name as it stands in a bag."""
-    return topic if topic.startswith('/') else f'/{topic}'
 
 
 def _series(bag: Messages, topic: str, value: Callable[[Any], Any]) -> _Series:
@@ -107,8 +97,12 @@ def _time(message: Any, log_time: int) -> int:
     return stamp or log_time
 
 
-def _of_type(bag: Messages, topic: str, readers: dict[str, Any]) -> Any:
-    """Return what is to be done with a topic by its type.
+_Reader = Callable[[Messages, str], _Series]
+"""Reads the values of a topic"""
+
+
+def _of_type(bag: Messages, topic: str, readers: dict[str, _Reader]) -> _Reader:
+    """Return what reads a topic by its type.
 
     Raises
     ------
@@ -121,68 +115,108 @@ def _of_type(bag: Messages, topic: str, readers: dict[str, Any]) -> Any:
     return readers[kind]
 
 
-def _tensions(bag: Messages, topics: BagTopics) -> _Series:
-    names = [_full(name) for name in topics.tensions]
-    if len(names) == 1:
-        readers = {
-            ARRAY: _pair_of_array,
-            JOINT_STATE: lambda message: tuple(
-                _named(message, cable, message.effort) for cable in topics.cable_names
-            ),
-            ESTIMATE: lambda message: (message.tension_l, message.tension_s),
-        }
-        return _series(bag, names[0], _of_type(bag, names[0], readers))
-    if topics.force_component not in FORCE_COMPONENTS:
+def _each(value: Callable[[Any], Any]) -> _Reader:
+    """Return what reads a value from each message."""
+    return lambda bag, topic: _series(bag, topic, value)
+
+
+def _tensions(bag: Messages, topics: BagTopics, skew: int) -> _Series:
+    names = [full_name(name) for name in topics.tensions]
+    kinds: dict[str, _Reader] = {
+        ARRAY: _pairs,
+        JOINT_STATE: lambda bag, topic: _named(bag, topic, topics.cable_names, 'effort'),
+        ESTIMATE: _each(lambda message: (message.tension_l, message.tension_s)),
+    }
+    if len(names) == 2:
+        kinds = {WRENCH: _each(lambda message: _force(message, topics.force_component))}
+    readers = [_of_type(bag, name, kinds) for name in names]
+    for name in names:
+        if not bag.messages[name]:
+            raise RecordingError(f'there is no message on {name}{_why(bag)}')
+    first, *second = (read(bag, name) for read, name in zip(readers, names, strict=True))
+    if not second:
+        return first
+    paired = _nearest_numbers(second[0], first.times, skew)
+    return _Series(first.times, list(zip(first.values, paired, strict=True)))
+
+
+def _force(message: Any, component: str) -> float:
+    vector = message.wrench.force
+    if component == 'norm':
+        return math.hypot(vector.x, vector.y, vector.z)
+    return float(getattr(vector, component))
+
+
+def _pairs(bag: Messages, topic: str) -> _Series:
+    """Both tensions of each array, NaN of one that does not have two numbers.
+
+    Raises
+    ------
+    RecordingError
+        If none has.
+    """
+    lengths = sorted({len(message.data) for _, message in bag.messages[topic]})
+    if 2 not in lengths:
         raise RecordingError(
-            f'the force component is {topics.force_component!r}; '
-            f'there are {", ".join(FORCE_COMPONENTS)}'
+            f'the messages on {topic} hold {" or ".join(map(str, lengths))} numbers; '
+            'two are needed, T_l and T_s'
         )
 
-    def force(message: Any) -> float:
-        vector = message.wrench.force
-        if topics.force_component == 'norm':
-            return math.hypot(vector.x, vector.y, vector.z)
-        return float(getattr(vector, topics.force_component))
+    def pair(message: Any) -> tuple[float, float]:
+        data = message.data
+        return (float(data[0]), float(data[1])) if len(data) == 2 else (math.nan, math.nan)
 
-    of_l, of_s = (_series(bag, name, _of_type(bag, name, {WRENCH: force})) for name in names)
-    paired = _nearest_numbers(of_s, of_l.times, round(topics.max_skew * 1e9))
-    return _Series(of_l.times, list(zip(of_l.values, paired, strict=True)))
+    return _series(bag, topic, pair)
 
 
-def _pair_of_array(message: Any) -> tuple[float, float]:
-    data = message.data
-    return (float(data[0]), float(data[1])) if len(data) == 2 else (math.nan, math.nan)
+def _named(bag: Messages, topic: str, names: Sequence[str], field: str) -> _Series:
+    """Values of some names in each ``JointState``, a tuple; NaN of a name that is not in it.
 
+    Raises
+    ------
+    RecordingError
+        If there are messages, but none with a value of each name.
+    """
+    there: set[str] = set()
+    complete = not bag.messages[topic]
 
-def _named(message: Any, name: str, values: Sequence[float]) -> float:
-    """Return the value of a name in a ``JointState``; NaN if it has none."""
-    try:
-        return float(values[list(message.name).index(name)])
-    except (ValueError, IndexError):
-        return math.nan
+    def values(message: Any) -> tuple[float, ...]:
+        nonlocal complete
+        held = dict(zip(message.name, getattr(message, field), strict=False))
+        there.update(held)
+        complete = complete or held.keys() >= set(names)
+        return tuple(float(held.get(name, math.nan)) for name in names)
+
+    series = _series(bag, topic, values)
+    if not complete:
+        raise RecordingError(
+            f'no message on {topic} has the {field} of {" and ".join(names)}; '
+            f'there is that of: {", ".join(sorted(there)) or "none"}'
+        )
+    return series
 
 
 def _numbers(bag: Messages, topic: str) -> _Series:
-    return _series(bag, topic, _of_type(bag, topic, {NUMBER: lambda message: message.data}))
+    return _of_type(bag, topic, {NUMBER: _each(lambda message: message.data)})(bag, topic)
 
 
 def _bend_angles(bag: Messages, topic: str, joint_name: str | None) -> _Series:
-    def position(message: Any) -> float:
-        name = joint_name
-        if name is None:
-            if len(message.name) > 1:
-                raise RecordingError(
-                    f'the topic {topic} has joints {", ".join(message.name)}; name one of them'
-                )
-            name = message.name[0] if len(message.name) else ''
-        return _named(message, name, message.position)
+    def positions(bag: Messages, topic: str) -> _Series:
+        joints = {name: None for _, message in bag.messages[topic] for name in message.name}
+        if joint_name is None and len(joints) > 1:
+            raise RecordingError(
+                f'the topic {topic} has joints {", ".join(joints)}; name one of them'
+            )
+        name = next(iter(joints), 'a joint') if joint_name is None else joint_name
+        series = _named(bag, topic, (name,), 'position')
+        return _Series(series.times, [position for (position,) in series.values])
 
-    readers = {NUMBER: lambda message: message.data, JOINT_STATE: position}
-    return _series(bag, topic, _of_type(bag, topic, readers))
+    readers = {NUMBER: _each(lambda message: message.data), JOINT_STATE: positions}
+    return _of_type(bag, topic, readers)(bag, topic)
 
 
 def _states(bag: Messages, topic: str, times: npt.NDArray[np.int64], skew: int) -> list[str]:
-    series = _series(bag, topic, _of_type(bag, topic, {TEXT: lambda message: message.data}))
+    series = _of_type(bag, topic, {TEXT: _each(lambda message: message.data)})(bag, topic)
     return [
         series.values[index] if index >= 0 else '' for index in _nearest(series.times, times, skew)
     ]
