@@ -280,7 +280,7 @@ def test_a_damaged_summary_is_named_and_not_believed(chunks):
     assert recording.damage == ('its end, the summary, is truncated or damaged',)
 
 
-def test_messages_of_a_topic_that_nothing_defines_are_counted(chunks):
+def test_without_summary_and_first_chunk_nothing_says_what_the_topics_are(chunks):
     file, index = chunks
     flip(file, index[0].chunk_start_offset + 100, -30)
     with pytest.raises(RecordingError, match='no topic /tensions; there are: none; a part at'):
@@ -305,7 +305,7 @@ def test_messages_that_are_not_where_the_summary_counts_them_are_missed(tmp_path
     recording = load_recording(file)
     assert len(recording) == 2
     assert recording.damage == ('1 messages on /tensions cannot be read',)
-    flip(file, message)
+    flip(file, 0, message)
     assert load_recording(file).damage == ('1 messages are missing that its summary counts',)
 
 
@@ -399,6 +399,26 @@ def test_damage_in_the_log_of_a_database_is_named(unfinished, place, kept):
     recording = load_recording(unfinished)
     assert len(recording) == kept
     assert 'pages of its -wal are damaged' in recording.damage_summary
+
+
+def test_what_a_recorder_did_not_finish_is_undone_and_named(tmp_path, database):
+    copy = tmp_path / 'run.db3'
+    connection = sqlite3.connect(database)
+    connection.execute('PRAGMA cache_size = 1')
+    connection.execute('BEGIN')
+    for key in range(100, 2000):
+        connection.execute(
+            'INSERT INTO messages SELECT ?, topic_id, timestamp, data FROM messages WHERE id = 1',
+            [key],
+        )
+    for ending in ('', '-journal'):
+        shutil.copyfile(f'{database}{ending}', f'{copy}{ending}')
+    connection.close()
+    assert copy.stat().st_size > 50_000
+    recording = load_recording(copy)
+    assert len(recording) == 10
+    (damage,) = recording.damage
+    assert damage.startswith('what was written last is left out')
 
 
 def test_in_a_folder_a_file_that_is_no_bag_is_named_and_the_others_are_read(tmp_path):

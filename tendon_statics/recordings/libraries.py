@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-from .errors import RecordingError
+from .errors import RecordingError, one_line
 
 
 def needed(*modules: str, purpose: str) -> tuple[Any, ...]:
@@ -20,9 +20,8 @@ def needed(*modules: str, purpose: str) -> tuple[Any, ...]:
         return tuple(import_module(module) for module in modules)
     except ImportError as error:
         if not isinstance(error, ModuleNotFoundError):
-            reason = ' '.join(str(error).split())
             raise RecordingError(
-                f'{purpose} need {modules[0]}, which cannot be loaded: {reason}'
+                f'{purpose} need {modules[0]}, which cannot be loaded: {one_line(error)}'
             ) from None
         library = (error.name or modules[0]).split('.')[0]
         raise RecordingError(

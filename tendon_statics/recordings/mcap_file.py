@@ -99,14 +99,15 @@ class _McapFile:
         if crc and zlib.crc32(content[: -len(MAGIC) - CRC_SIZE]) != crc:
             return None
         try:
-            return list(self._reader(BytesIO(content), skip_magic=True))
+            return list(self._reader(BytesIO(content)))
         except Exception:
             # The library raises what its unpacking happens to.
             return None
 
-    def _reader(self, stream: IO[bytes], *, skip_magic: bool) -> Iterator[Any]:
+    def _reader(self, stream: IO[bytes]) -> Iterator[Any]:
+        """Read the records from where a stream is."""
         records: Iterator[Any] = self._library.StreamReader(
-            stream, skip_magic=skip_magic, emit_chunks=True, record_size_limit=self._size
+            stream, skip_magic=True, emit_chunks=True, record_size_limit=self._size
         ).records
         return records
 
@@ -117,7 +118,7 @@ class _McapFile:
             try:
                 self._file.seek(start)
                 content = BytesIO(self._file.read(index.chunk_length))
-                chunk = next(self._reader(content, skip_magic=True))
+                chunk = next(self._reader(content))
                 if not isinstance(chunk, self._kinds.Chunk):
                     raise TypeError('no chunk')
             except Exception as error:
@@ -127,8 +128,8 @@ class _McapFile:
 
     def _front_to_back(self) -> Iterator[tuple[int, Any]]:
         """Give each record outside the summary, and where it is, up to the first broken one."""
-        self._file.seek(0)
-        entries = self._reader(self._file, skip_magic=False)
+        self._file.seek(len(MAGIC))
+        entries = self._reader(self._file)
         while True:
             start = self._file.tell()
             try:

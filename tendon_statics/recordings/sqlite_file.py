@@ -16,7 +16,13 @@ from .errors import RecordingError
 WAL = '-wal'
 """Ending of the log in which SQLite keeps what has not yet come to the file itself"""
 
-WAL_HEADER, WAL_FRAME_HEADER = 32, 24
+JOURNAL = '-journal'
+"""Ending of the file in which SQLite keeps what a change that is not finished has overwritten"""
+
+JOURNAL_MAGIC = b'\xd9\xd5\x05\xf9\x20\xa1\x63\xd7'
+"""What a journal begins with that is still to be undone"""
+
+WAL_HEADER, WAL_PAGE_HEADER = 32, 24
 """Bytes at the beginning of a log, and before each page in it"""
 
 
@@ -38,7 +44,7 @@ def sqlite_records(path: Path, types: dict[str, str], damage: list[str]) -> Iter
     path.open('rb').close()  # for the system's own reason, if it cannot be
     with _opened(path) as database:
         try:
-            lost = _lost_pages(database, path.with_name(path.name + WAL))
+            damage.extend(_unfinished(database, path))
             # So that a file that is shorter than its header says is read all the same.
             database.execute('PRAGMA writable_schema = ON')
             topics = {
@@ -50,8 +56,6 @@ def sqlite_records(path: Path, types: dict[str, str], damage: list[str]) -> Iter
         except (sqlite3.Error, MemoryError) as error:
             raise RecordingError(f'it cannot be read as a bag: {error}') from None
         types.update((name, kind) for name, kind in topics.values() if name)
-        if lost:
-            damage.append(f'{lost} pages of its {WAL} are damaged or were not committed')
         unknown = 0
         try:
             for key, log_time, data in rows:
@@ -85,7 +89,7 @@ def _opened(path: Path) -> Iterator[sqlite3.Connection]:
 @contextmanager
 def _with_journals(path: Path) -> Iterator[str]:
     """Give the URI of a file, or of a copy of it into which SQLite may write its journals."""
-    journals = [path.with_name(path.name + ending) for ending in (WAL, '-journal')]
+    journals = [path.with_name(path.name + ending) for ending in (WAL, JOURNAL)]
     journals = [journal for journal in journals if journal.is_file() and journal.stat().st_size]
     if not journals:
         yield f'{path.absolute().as_uri()}?mode=ro&immutable=1'
@@ -96,16 +100,25 @@ def _with_journals(path: Path) -> Iterator[str]:
         yield Path(folder, path.name).as_uri()
 
 
-def _lost_pages(database: sqlite3.Connection, wal: Path) -> int:
-    """Count the pages in a log that SQLite leaves out: those from the first damaged one on."""
-    if not wal.is_file():
-        return 0
-    content = wal.read_bytes()
-    page_size, salt = int.from_bytes(content[8:12], 'big'), content[16:24]
-    frames = range(WAL_HEADER, len(content), WAL_FRAME_HEADER + page_size)
-    written = sum(content[start + 8 : start + 16] == salt for start in frames)
+def _unfinished(database: sqlite3.Connection, path: Path) -> Iterator[str]:
+    """Say what of the journals SQLite leaves out: all from the first damaged page of a log on."""
+    if _content(path, JOURNAL).startswith(JOURNAL_MAGIC):
+        yield f'what was written last is left out: as its {JOURNAL} says, it was not finished'
+    log = _content(path, WAL)
+    if not log:
+        return
+    page_size, salt = int.from_bytes(log[8:12], 'big'), log[16:24]
+    pages = range(WAL_HEADER, len(log), WAL_PAGE_HEADER + page_size)
+    written = sum(log[start + 8 : start + 16] == salt for start in pages)
     _, taken, _ = database.execute('PRAGMA wal_checkpoint').fetchone()
-    return max(written, len(content) > 0) - max(int(taken), 0)
+    lost = max(written, 1) - max(taken, 0)
+    if lost > 0:
+        yield f'{lost} pages of its {WAL} are damaged or were not committed'
+
+
+def _content(path: Path, ending: str) -> bytes:
+    journal = path.with_name(path.name + ending)
+    return journal.read_bytes() if journal.is_file() else b''
 
 
 def _definitions(database: sqlite3.Connection) -> dict[str, str]:
