@@ -89,15 +89,15 @@ def _opened(path: Path) -> Iterator[sqlite3.Connection]:
 @contextmanager
 def _with_journals(path: Path) -> Iterator[str]:
     """Give the URI of a file, or of a copy of it into which SQLite may write its journals."""
-    journals = [path.with_name(path.name + ending) for ending in (WAL, JOURNAL)]
-    journals = [journal for journal in journals if journal.is_file() and journal.stat().st_size]
-    if not journals:
+    endings = [ending for ending in (WAL, JOURNAL) if _content(path, ending)]
+    if not endings:
         yield f'{path.absolute().as_uri()}?mode=ro&immutable=1'
         return
     with tempfile.TemporaryDirectory(prefix='tendon-statics-') as folder:
-        for file in (path, *journals):
-            shutil.copyfile(file, Path(folder, file.name))
-        yield Path(folder, path.name).as_uri()
+        copy = Path(folder, path.name)
+        for ending in ('', *endings):
+            shutil.copyfile(f'{path}{ending}', f'{copy}{ending}')
+        yield copy.as_uri()
 
 
 def _unfinished(database: sqlite3.Connection, path: Path) -> Iterator[str]:
@@ -117,7 +117,7 @@ def _unfinished(database: sqlite3.Connection, path: Path) -> Iterator[str]:
 
 
 def _content(path: Path, ending: str) -> bytes:
-    journal = path.with_name(path.name + ending)
+    journal = Path(f'{path}{ending}')
     return journal.read_bytes() if journal.is_file() else b''
 
 
