@@ -48,6 +48,7 @@ from .tension_source import (
     calibrated,
 )
 from .unknown_parameters import warn_of_unknown_parameters
+from .waiting_messages import waiting_messages
 from .wiring import declare_wiring
 
 WARNING_PERIOD = 5.0
@@ -58,6 +59,9 @@ DIAGNOSTICS_PERIOD = 1.0
 
 INPUT_DEPTH = 1000
 """Messages kept while the node is busy, so that a burst or a stall loses none."""
+
+MOST_AT_ONCE = 100
+"""Messages taken in a row before services and timers have their turn"""
 
 UNCONFIGURED, INACTIVE, ACTIVE, FINALIZED = 'unconfigured', 'inactive', 'active', 'finalized'
 """States of a managed node"""
@@ -89,6 +93,7 @@ class Estimator(LifecycleNode):
         self._lag = 0  # ns that the present message waited
         self._has_run = False
         self._has_said_stale = True
+        self._active_since = -math.inf  # steady, in s, or since the timeout was changed
         self._corrected = -math.inf  # when a tracked unit was last put somewhere, steady, in s
 
         self._left_out = declare_settings(self)
@@ -148,10 +153,15 @@ class Estimator(LifecycleNode):
             self._lag = max(0, time.time_ns() - arrival) if arrival > 0 else 0
             on_message(message)
 
+        def on_numbered_messages(message: Any, info: dict[str, int]) -> None:
+            on_numbered_message(message, info)
+            for waiting in waiting_messages(subscription, MOST_AT_ONCE):
+                on_numbered_message(*waiting)
+
         # EventsExecutor fails on callbacks that take the number.
         is_numbered = self._wiring.executor == 'single'
         subscription = self._subscription(
-            message_type, topic, on_numbered_message if is_numbered else on_message
+            message_type, topic, on_numbered_messages if is_numbered else on_message
         )
         return subscription
 
@@ -220,7 +230,7 @@ class Estimator(LifecycleNode):
         self._diagnostics_timer = self.create_timer(
             DIAGNOSTICS_PERIOD, self._on_diagnostics_time, clock=steady
         )
-        self._watchdog = self.create_timer(DIAGNOSTICS_PERIOD, self._on_stale_input, clock=steady)
+        self._watchdog = self.create_timer(DIAGNOSTICS_PERIOD, self._on_watchdog, clock=steady)
         self._jump_handle = self.get_clock().create_jump_callback(
             JumpThreshold(
                 min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=True
@@ -257,26 +267,24 @@ class Estimator(LifecycleNode):
         self._has_run = True
         self._health.begin_period()
         self._health.stale = False
-        self._set_watchdog()
+        self._active_since = time.monotonic()
+        self._set_watchdog(self._settings.input_timeout)
         self._diagnostics_timer.reset()
         self._state = ACTIVE
         self.get_logger().info(f'Ready: {self._wiring.estimation} from {self._input_names()}')
         return TransitionCallbackReturn.SUCCESS
 
-    def _set_watchdog(self) -> None:
-        self._watchdog.timer_period_ns = int(self._settings.input_timeout * 1e9)
+    def _set_watchdog(self, delay: float) -> None:
+        """Look in so many seconds whether tensions still come."""
+        self._watchdog.timer_period_ns = int(delay * 1e9) + 1
         self._watchdog.reset()
 
     def _let_pass_what_waits(self) -> None:
         """Take the messages that came while inactive, which are not of the present."""
         self._newest.clear()
         for subscription in self._drained:
-            with subscription.handle:
-                for _ in range(INPUT_DEPTH):
-                    if not subscription.handle.take_message(
-                        subscription.msg_type, subscription.raw
-                    ):
-                        break
+            for _ in waiting_messages(subscription, INPUT_DEPTH):
+                pass
 
     def on_deactivate(self, _state: LifecycleState) -> TransitionCallbackReturn:
         """Do and publish nothing until activated again."""
@@ -341,7 +349,8 @@ class Estimator(LifecycleNode):
             return
         before, self._settings = self._settings, read_settings(self)
         if self._settings.input_timeout != before.input_timeout:
-            self._set_watchdog()
+            self._active_since = time.monotonic()
+            self._set_watchdog(self._settings.input_timeout)
         if self._tracker is not None and self._settings.design != before.design:
             angle = self._tracker.bend_angle
             self._tracker.change_design(self._settings.design)
@@ -365,20 +374,20 @@ class Estimator(LifecycleNode):
             return
         if self._health.stale and not self._is_corrected():
             self._doubt()
-        begin = time.perf_counter()
+        begin = time.monotonic()
         try:
             result = self._result(self._tracker, tension_l, tension_s)
         except TensionError as error:
             self._on_drop(Reason.BELOW_WEIGHT, str(error))
             return
+        solved = time.monotonic()
+        self._outputs.publish(result, settings, stamp)
         was_stale = self._health.stale
-        self._health.note_result(result, time.perf_counter() - begin)
+        self._health.note_result(result, solved - begin)
         self._health.note_lag(self._lag * 1e-9, settings.input_timeout)
         self._source.tighten()
-        self._watchdog.reset()
-        self._latest = (tension_l, tension_s, time.monotonic())
+        self._latest = (tension_l, tension_s, solved)
         self._invalid_since_latest = 0
-        self._outputs.publish(result, settings, stamp)
         self._has_said_stale = False
         if was_stale:
             self.get_logger().info('Valid tensions come again', **self._throttled)
@@ -438,13 +447,25 @@ class Estimator(LifecycleNode):
 
     # Health
 
-    def _on_stale_input(self) -> None:
-        """Say once that no more tensions come; what is drawn or remembered is not vouched for.
+    def _on_watchdog(self) -> None:
+        """Find out whether tensions still come, and look again when they next may be missed.
 
-        The watchdog goes on, for EventsExecutor does not bear timers that are cancelled.
+        Putting it off with every message would wake the executor once more for each. It goes on
+        for ever, since EventsExecutor does not bear timers that are cancelled.
         """
         if self._state != ACTIVE or self._health.stale:
             return
+        newest = -math.inf if self._latest is None else self._latest[2]
+        silence = time.monotonic() - max(newest, self._active_since)
+        left = self._settings.input_timeout - silence
+        if left > 0.0:
+            self._set_watchdog(left)
+            return
+        self._set_watchdog(self._settings.input_timeout)
+        self._on_stale_input()
+
+    def _on_stale_input(self) -> None:
+        """Say once that no more tensions come; what is drawn or remembered is not vouched for."""
         self._lose_sight()
         self._source.loosen()
         self._newest.clear()
