@@ -15,12 +15,14 @@ from diagnostic_msgs.msg import KeyValue
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType, JumpThreshold
 from rclpy.duration import Duration
+from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import QoSCompatibility, QoSProfile, ReliabilityPolicy, qos_check_compatible
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.subscription import Subscription
 from rclpy.time import Time as ClockTime
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
@@ -90,7 +92,7 @@ class Estimator(LifecycleNode):
         self._reported_level = Level.OK
         self._newest: dict[str, int] = {}  # topic → number that its publisher gave a message
         self._publisher_counts: dict[str, int] = {}  # topic → how many, at the last report
-        self._lag = 0  # ns that the present message waited
+        self._arrival = 0  # of the present message, in ns since 1970
         self._has_run = False
         self._has_said_stale = True
         self._active_since = -math.inf  # steady, in s, or since the timeout was changed
@@ -138,10 +140,15 @@ class Estimator(LifecycleNode):
     ) -> Subscription:
         """Subscribe to a topic of the source; count what comes and what is lost on the way."""
 
-        def on_message(message: Any) -> None:
+        def take_arrived(message: Any, arrival: int) -> None:
             if self._state == ACTIVE:
+                # 0 where the middleware does not tell
+                self._arrival = arrival if arrival > 0 else time.time_ns()
                 self._health.received += 1
                 take(message)
+
+        def on_message(message: Any) -> None:
+            take_arrived(message, 0)
 
         def on_numbered_message(message: Any, info: dict[str, int]) -> None:
             number, before = info['publication_sequence_number'], self._newest.get(topic, 0)
@@ -149,9 +156,7 @@ class Estimator(LifecycleNode):
             # Two publishers number each for itself, and one that begins anew at 1.
             if 0 < before < number - 1 and self._is_alone(subscription):
                 self._health.note_lost(number - before - 1)
-            arrival = info['received_timestamp']  # 0 where the middleware does not tell
-            self._lag = max(0, time.time_ns() - arrival) if arrival > 0 else 0
-            on_message(message)
+            take_arrived(message, info['received_timestamp'])
 
         def on_numbered_messages(message: Any, info: dict[str, int]) -> None:
             on_numbered_message(message, info)
@@ -179,6 +184,8 @@ class Estimator(LifecycleNode):
             callback,
             QoSProfile(depth=INPUT_DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+            # As of the outputs; a publisher that does not fit is told in /diagnostics.
+            event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
         )
 
     def _create_services(self) -> None:
@@ -364,7 +371,6 @@ class Estimator(LifecycleNode):
 
     def _on_reading(self, reading: Reading) -> None:
         settings = self._settings
-        stamp = reading.stamp or self._time_of_arrival()
         tension_l, fault_l = calibrated('tension_l', reading.value_l, settings.cable_l)
         tension_s, fault_s = calibrated('tension_s', reading.value_s, settings.cable_s)
         faults = [fault for fault in (fault_l, fault_s) if fault]
@@ -381,10 +387,11 @@ class Estimator(LifecycleNode):
             self._on_drop(Reason.BELOW_WEIGHT, str(error))
             return
         solved = time.monotonic()
-        self._outputs.publish(result, settings, stamp)
+        self._outputs.publish(result, settings, lambda: reading.stamp or self._time_of_arrival())
         was_stale = self._health.stale
         self._health.note_result(result, solved - begin)
-        self._health.note_lag(self._lag * 1e-9, settings.input_timeout)
+        lag = max(0.0, 1e-9 * (time.time_ns() - self._arrival))
+        self._health.note_lag(lag, settings.input_timeout)
         self._source.tighten()
         self._latest = (tension_l, tension_s, solved)
         self._invalid_since_latest = 0
@@ -395,10 +402,9 @@ class Estimator(LifecycleNode):
 
     def _time_of_arrival(self) -> Time:
         clock = self.get_clock()
-        now = clock.now()
         if clock.ros_time_is_active:  # A simulated clock does not know how long it waited.
-            return now.to_msg()
-        return ClockTime(nanoseconds=now.nanoseconds - self._lag).to_msg()
+            return clock.now().to_msg()
+        return ClockTime(nanoseconds=self._arrival).to_msg()
 
     def _doubt(self) -> None:
         """A tracked unit may have moved unseen; before the first tensions it is where it began."""
@@ -518,15 +524,24 @@ class Estimator(LifecycleNode):
         self._outputs.report(status)
 
     def _misfit(self) -> str:
-        """Say which publishers of tensions publish what is not listened to; empty if none do."""
+        """Say which publishers of tensions are not heard, and why; empty if all are."""
         misfits = [
-            f'{subscription.topic_name} is published as {info.topic_type}, but tension_source '
-            f'{self._wiring.tension_source} takes {messages.type_name(subscription.msg_type)}'
+            f'{subscription.topic_name} is published {misfit}'
             for subscription in self._inputs
             for info in self.get_publishers_info_by_topic(subscription.topic_name)
-            if info.topic_type != messages.type_name(subscription.msg_type)
+            if (misfit := self._misfit_of(info, subscription))
         ]
         return '; '.join(misfits)
+
+    def _misfit_of(self, publisher: TopicEndpointInfo, subscription: Subscription) -> str:
+        taken = messages.type_name(subscription.msg_type)
+        if publisher.topic_type != taken:
+            source = self._wiring.tension_source
+            return f'as {publisher.topic_type}, but tension_source {source} takes {taken}'
+        fit, reason = qos_check_compatible(publisher.qos_profile, subscription.qos_profile)
+        if fit == QoSCompatibility.ERROR:
+            return f'with a quality of service that does not fit: {reason.rstrip("; ")}'
+        return ''
 
     # Services
 
