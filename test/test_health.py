@@ -5,7 +5,10 @@ import math
 from designs import PRELIMINARY
 from diagnostic_msgs.msg import DiagnosticStatus
 from rcl_interfaces.msg import ParameterType, ParameterValue
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from ros_programs import Listener, Program, spinning, wait_for
+from std_msgs.msg import Float64MultiArray
 
 from tendon_statics import solve
 from tendon_statics.node.health import Health, Level
@@ -247,6 +250,16 @@ def test_a_driver_of_another_kind_is_named(listener):
     ):
         status = listener.wait_for_status(STALE, '/tensions is published as sensor_msgs/msg/Joint')
         assert 'tension_source array takes std_msgs/msg/Float64MultiArray' in status.message
+
+
+def test_a_driver_whose_quality_of_service_does_not_fit_is_named(listener):
+    reliable = ('-p', 'qos_overrides./tensions.subscription.reliability:=reliable')
+    with spinning(lambda context: Node('driver', context=context)) as driver:
+        best_effort = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+        driver.create_publisher(Float64MultiArray, 'tensions', best_effort)
+        with Program.running('estimator', '--ros-args', '-p', 'input_timeout:=0.1', *reliable):
+            status = listener.wait_for_status(STALE, 'a quality of service that does not fit')
+            assert 'reliab' in status.message.lower()
 
 
 def test_the_name_tells_estimators_apart(listener):

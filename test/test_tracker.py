@@ -81,6 +81,24 @@ def test_a_second_message_with_the_same_tensions_changes_nothing(walk):
             assert second.regime is Regime.HELD
 
 
+class RoundaboutTracker(StickSlipTracker):
+    """Works the whole way out, also where the unit is pressed against its stop."""
+
+    def _stays_at_stop(self, _margin: float) -> bool:
+        return False
+
+
+@given(walks())
+@settings(max_examples=300)
+def test_at_a_stop_nothing_but_the_stop_is_found(walk):
+    design, angle, sequence = walk
+    stop = math.copysign(design.max_bend_angle, angle)
+    for start in (angle, stop):
+        short, long = StickSlipTracker(design, start), RoundaboutTracker(design, start)
+        for tensions in sequence:
+            assert short.update(*tensions) == long.update(*tensions)
+
+
 def test_a_constant_load_a_million_times_leaves_the_angle_identical():
     tracker = StickSlipTracker(PRELIMINARY, -0.1)
     assert tracker.update(1.0, 3.0).regime is Regime.DRIVEN_TO_STOP

@@ -15,12 +15,14 @@ from diagnostic_msgs.msg import KeyValue
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType, JumpThreshold
 from rclpy.duration import Duration
+from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import QoSCompatibility, QoSProfile, ReliabilityPolicy, qos_check_compatible
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.subscription import Subscription
 from rclpy.time import Time as ClockTime
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
@@ -48,6 +50,7 @@ from .tension_source import (
     calibrated,
 )
 from .unknown_parameters import warn_of_unknown_parameters
+from .waiting_messages import waiting_messages
 from .wiring import declare_wiring
 
 WARNING_PERIOD = 5.0
@@ -58,6 +61,9 @@ DIAGNOSTICS_PERIOD = 1.0
 
 INPUT_DEPTH = 1000
 """Messages kept while the node is busy, so that a burst or a stall loses none."""
+
+MOST_AT_ONCE = 100
+"""Messages taken in a row before services and timers have their turn"""
 
 UNCONFIGURED, INACTIVE, ACTIVE, FINALIZED = 'unconfigured', 'inactive', 'active', 'finalized'
 """States of a managed node"""
@@ -86,9 +92,10 @@ class Estimator(LifecycleNode):
         self._reported_level = Level.OK
         self._newest: dict[str, int] = {}  # topic → number that its publisher gave a message
         self._publisher_counts: dict[str, int] = {}  # topic → how many, at the last report
-        self._lag = 0  # ns that the present message waited
+        self._arrival = 0  # of the present message, in ns since 1970
         self._has_run = False
         self._has_said_stale = True
+        self._active_since = -math.inf  # steady, in s, or since the timeout was changed
         self._corrected = -math.inf  # when a tracked unit was last put somewhere, steady, in s
 
         self._left_out = declare_settings(self)
@@ -133,10 +140,15 @@ class Estimator(LifecycleNode):
     ) -> Subscription:
         """Subscribe to a topic of the source; count what comes and what is lost on the way."""
 
-        def on_message(message: Any) -> None:
+        def take_arrived(message: Any, arrival: int) -> None:
             if self._state == ACTIVE:
+                # 0 where the middleware does not tell
+                self._arrival = arrival if arrival > 0 else time.time_ns()
                 self._health.received += 1
                 take(message)
+
+        def on_message(message: Any) -> None:
+            take_arrived(message, 0)
 
         def on_numbered_message(message: Any, info: dict[str, int]) -> None:
             number, before = info['publication_sequence_number'], self._newest.get(topic, 0)
@@ -144,14 +156,17 @@ class Estimator(LifecycleNode):
             # Two publishers number each for itself, and one that begins anew at 1.
             if 0 < before < number - 1 and self._is_alone(subscription):
                 self._health.note_lost(number - before - 1)
-            arrival = info['received_timestamp']  # 0 where the middleware does not tell
-            self._lag = max(0, time.time_ns() - arrival) if arrival > 0 else 0
-            on_message(message)
+            take_arrived(message, info['received_timestamp'])
+
+        def on_numbered_messages(message: Any, info: dict[str, int]) -> None:
+            on_numbered_message(message, info)
+            for waiting in waiting_messages(subscription, MOST_AT_ONCE):
+                on_numbered_message(*waiting)
 
         # EventsExecutor fails on callbacks that take the number.
         is_numbered = self._wiring.executor == 'single'
         subscription = self._subscription(
-            message_type, topic, on_numbered_message if is_numbered else on_message
+            message_type, topic, on_numbered_messages if is_numbered else on_message
         )
         return subscription
 
@@ -169,6 +184,8 @@ class Estimator(LifecycleNode):
             callback,
             QoSProfile(depth=INPUT_DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+            # As of the outputs; a publisher that does not fit is told in /diagnostics.
+            event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
         )
 
     def _create_services(self) -> None:
@@ -220,7 +237,7 @@ class Estimator(LifecycleNode):
         self._diagnostics_timer = self.create_timer(
             DIAGNOSTICS_PERIOD, self._on_diagnostics_time, clock=steady
         )
-        self._watchdog = self.create_timer(DIAGNOSTICS_PERIOD, self._on_stale_input, clock=steady)
+        self._watchdog = self.create_timer(DIAGNOSTICS_PERIOD, self._on_watchdog, clock=steady)
         self._jump_handle = self.get_clock().create_jump_callback(
             JumpThreshold(
                 min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=True
@@ -257,26 +274,24 @@ class Estimator(LifecycleNode):
         self._has_run = True
         self._health.begin_period()
         self._health.stale = False
-        self._set_watchdog()
+        self._active_since = time.monotonic()
+        self._set_watchdog(self._settings.input_timeout)
         self._diagnostics_timer.reset()
         self._state = ACTIVE
         self.get_logger().info(f'Ready: {self._wiring.estimation} from {self._input_names()}')
         return TransitionCallbackReturn.SUCCESS
 
-    def _set_watchdog(self) -> None:
-        self._watchdog.timer_period_ns = int(self._settings.input_timeout * 1e9)
+    def _set_watchdog(self, delay: float) -> None:
+        """Look in so many seconds whether tensions still come."""
+        self._watchdog.timer_period_ns = int(delay * 1e9) + 1
         self._watchdog.reset()
 
     def _let_pass_what_waits(self) -> None:
         """Take the messages that came while inactive, which are not of the present."""
         self._newest.clear()
         for subscription in self._drained:
-            with subscription.handle:
-                for _ in range(INPUT_DEPTH):
-                    if not subscription.handle.take_message(
-                        subscription.msg_type, subscription.raw
-                    ):
-                        break
+            for _ in waiting_messages(subscription, INPUT_DEPTH):
+                pass
 
     def on_deactivate(self, _state: LifecycleState) -> TransitionCallbackReturn:
         """Do and publish nothing until activated again."""
@@ -341,7 +356,8 @@ class Estimator(LifecycleNode):
             return
         before, self._settings = self._settings, read_settings(self)
         if self._settings.input_timeout != before.input_timeout:
-            self._set_watchdog()
+            self._active_since = time.monotonic()
+            self._set_watchdog(self._settings.input_timeout)
         if self._tracker is not None and self._settings.design != before.design:
             angle = self._tracker.bend_angle
             self._tracker.change_design(self._settings.design)
@@ -355,7 +371,6 @@ class Estimator(LifecycleNode):
 
     def _on_reading(self, reading: Reading) -> None:
         settings = self._settings
-        stamp = reading.stamp or self._time_of_arrival()
         tension_l, fault_l = calibrated('tension_l', reading.value_l, settings.cable_l)
         tension_s, fault_s = calibrated('tension_s', reading.value_s, settings.cable_s)
         faults = [fault for fault in (fault_l, fault_s) if fault]
@@ -365,20 +380,21 @@ class Estimator(LifecycleNode):
             return
         if self._health.stale and not self._is_corrected():
             self._doubt()
-        begin = time.perf_counter()
+        begin = time.monotonic()
         try:
             result = self._result(self._tracker, tension_l, tension_s)
         except TensionError as error:
             self._on_drop(Reason.BELOW_WEIGHT, str(error))
             return
+        solved = time.monotonic()
+        self._outputs.publish(result, settings, lambda: reading.stamp or self._time_of_arrival())
         was_stale = self._health.stale
-        self._health.note_result(result, time.perf_counter() - begin)
-        self._health.note_lag(self._lag * 1e-9, settings.input_timeout)
+        self._health.note_result(result, solved - begin)
+        lag = max(0.0, 1e-9 * (time.time_ns() - self._arrival))
+        self._health.note_lag(lag, settings.input_timeout)
         self._source.tighten()
-        self._watchdog.reset()
-        self._latest = (tension_l, tension_s, time.monotonic())
+        self._latest = (tension_l, tension_s, solved)
         self._invalid_since_latest = 0
-        self._outputs.publish(result, settings, stamp)
         self._has_said_stale = False
         if was_stale:
             self.get_logger().info('Valid tensions come again', **self._throttled)
@@ -386,10 +402,9 @@ class Estimator(LifecycleNode):
 
     def _time_of_arrival(self) -> Time:
         clock = self.get_clock()
-        now = clock.now()
         if clock.ros_time_is_active:  # A simulated clock does not know how long it waited.
-            return now.to_msg()
-        return ClockTime(nanoseconds=now.nanoseconds - self._lag).to_msg()
+            return clock.now().to_msg()
+        return ClockTime(nanoseconds=self._arrival).to_msg()
 
     def _doubt(self) -> None:
         """A tracked unit may have moved unseen; before the first tensions it is where it began."""
@@ -438,13 +453,25 @@ class Estimator(LifecycleNode):
 
     # Health
 
-    def _on_stale_input(self) -> None:
-        """Say once that no more tensions come; what is drawn or remembered is not vouched for.
+    def _on_watchdog(self) -> None:
+        """Find out whether tensions still come, and look again when they next may be missed.
 
-        The watchdog goes on, for EventsExecutor does not bear timers that are cancelled.
+        Putting it off with every message would wake the executor once more for each. It goes on
+        for ever, since EventsExecutor does not bear timers that are cancelled.
         """
         if self._state != ACTIVE or self._health.stale:
             return
+        newest = -math.inf if self._latest is None else self._latest[2]
+        silence = time.monotonic() - max(newest, self._active_since)
+        left = self._settings.input_timeout - silence
+        if left > 0.0:
+            self._set_watchdog(left)
+            return
+        self._set_watchdog(self._settings.input_timeout)
+        self._on_stale_input()
+
+    def _on_stale_input(self) -> None:
+        """Say once that no more tensions come; what is drawn or remembered is not vouched for."""
         self._lose_sight()
         self._source.loosen()
         self._newest.clear()
@@ -497,15 +524,24 @@ class Estimator(LifecycleNode):
         self._outputs.report(status)
 
     def _misfit(self) -> str:
-        """Say which publishers of tensions publish what is not listened to; empty if none do."""
+        """Say which publishers of tensions are not heard, and why; empty if all are."""
         misfits = [
-            f'{subscription.topic_name} is published as {info.topic_type}, but tension_source '
-            f'{self._wiring.tension_source} takes {messages.type_name(subscription.msg_type)}'
+            f'{subscription.topic_name} is published {misfit}'
             for subscription in self._inputs
             for info in self.get_publishers_info_by_topic(subscription.topic_name)
-            if info.topic_type != messages.type_name(subscription.msg_type)
+            if (misfit := self._misfit_of(info, subscription))
         ]
         return '; '.join(misfits)
+
+    def _misfit_of(self, publisher: TopicEndpointInfo, subscription: Subscription) -> str:
+        taken = messages.type_name(subscription.msg_type)
+        if publisher.topic_type != taken:
+            source = self._wiring.tension_source
+            return f'as {publisher.topic_type}, but tension_source {source} takes {taken}'
+        fit, reason = qos_check_compatible(publisher.qos_profile, subscription.qos_profile)
+        if fit == QoSCompatibility.ERROR:
+            return f'with a quality of service that does not fit: {reason.rstrip("; ")}'
+        return ''
 
     # Services
 

@@ -46,7 +46,7 @@ class Finding:
         result: Equilibrium | TrackedState,
         settings: Settings,
         wiring: Wiring,
-        stamp: Time,
+        stamp: Callable[[], Time],
     ) -> None:
         self.result = result
         self.design = settings.design
@@ -62,7 +62,7 @@ class Finding:
     @cached_property
     def header(self) -> Header:
         """Header of all messages that have one."""
-        return Header(stamp=self._stamp, frame_id=self._wiring.frame_id)
+        return Header(stamp=self._stamp(), frame_id=self._wiring.frame_id)
 
     @cached_property
     def slip_margin(self) -> float | None:
@@ -168,7 +168,12 @@ class Outputs:
             event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
         )
 
-    def publish(self, result: Equilibrium | TrackedState, settings: Settings, stamp: Time) -> None:
+    def publish(
+        self,
+        result: Equilibrium | TrackedState,
+        settings: Settings,
+        stamp: Callable[[], Time],
+    ) -> None:
         """Publish all of a result that is determined and that somebody listens to."""
         finding = Finding(result, settings, self._wiring, stamp)
         for publisher, make in self._of_findings:

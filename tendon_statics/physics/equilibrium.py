@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from enum import Enum
 from typing import Any, NamedTuple
 
@@ -85,8 +86,11 @@ class Equilibrium(NamedTuple):
     @property
     def branch_consistent(self) -> bool | None:
         """Whether μ N sin(β + θ) > W, so that Eq. (2) asks for the root taken (N < T)."""
-        contact = self._contact
-        return None if contact is None else contact.branch_consistent
+        if self.bend_angle is None or self.normal_force is None:
+            return None
+        design = self.design
+        phi = design.contact_centre_angle + self._side * self.bend_angle
+        return design.friction_coefficient * self.normal_force * math.sin(phi) > design.weight
 
     @property
     def bend_angle_gradient(self) -> TensionGradient | None:

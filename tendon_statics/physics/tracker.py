@@ -115,6 +115,7 @@ class StickSlipTracker:
         self._gradient: TensionGradient | None = NO_GRADIENT
         self._assured = True
         self._tensions: tuple[float, float] | None = None
+        self._margin = 0.0  # at those tensions
 
     def doubt(self) -> None:
         """Take it that the unit may have moved unseen, say while no tensions came.
@@ -152,7 +153,9 @@ class StickSlipTracker:
             return TrackedState(Regime.SLACK, tension_l, tension_s, angle_assured=False)
         regime = Regime.HELD
         margin = margin_at(self._design, tension_l, tension_s, self._bend_angle)
-        if abs(margin) > 1.0:
+        if abs(margin) > 1.0 and self._stays_at_stop(margin):
+            regime = self._come_to_stop(math.copysign(1.0, margin))
+        elif abs(margin) > 1.0:
             for pair in self._way(tension_l, tension_s, math.copysign(1.0, margin)):
                 margin = margin_at(self._design, *pair, self._bend_angle)
                 if abs(margin) > 1.0:
@@ -160,8 +163,24 @@ class StickSlipTracker:
             margin = margin_at(self._design, tension_l, tension_s, self._bend_angle)
             if regime is Regime.DRIVEN_TO_STOP and abs(margin) <= 1.0:
                 regime = Regime.SLIPPING  # driven there on the way, and held now
-        self._tensions = (tension_l, tension_s)
+        self._tensions, self._margin = (tension_l, tension_s), margin
         return self._state(regime, tension_l, tension_s, margin)
+
+    def _stays_at_stop(self, margin: float) -> bool:
+        """Whether the unit is pressed against the stop at which it is, all the way to here.
+
+        The moment changes in proportion on the way, so that it does not turn where its ends agree.
+        """
+        stop = math.copysign(self._design.max_bend_angle, margin)
+        return self._bend_angle == stop and (
+            self._tensions is None or self._margin * margin >= 0.0
+        )
+
+    def _come_to_stop(self, side: float) -> Regime:
+        self._bend_angle = side * self._design.max_bend_angle
+        self._gradient = NO_GRADIENT
+        self._assured = True
+        return Regime.DRIVEN_TO_STOP
 
     def _slip(self, tension_l: float, tension_s: float, side: float) -> Regime:
         """Move the unit in the direction it is driven; return ``slipping`` or the stop's regime.
@@ -171,10 +190,7 @@ class StickSlipTracker:
         behind, ahead = (tension_l, tension_s) if side > 0.0 else (tension_s, tension_l)
         landing = self._landing(behind, ahead, side * self._bend_angle)
         if landing is None:
-            self._bend_angle = side * self._design.max_bend_angle
-            self._gradient = NO_GRADIENT
-            self._assured = True
-            return Regime.DRIVEN_TO_STOP
+            return self._come_to_stop(side)
         self._bend_angle = side * landing
         self._gradient, _ = gradients_at_limit(
             self._design, tension_l, tension_s, self._bend_angle, side
