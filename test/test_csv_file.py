@@ -101,14 +101,15 @@ def test_what_is_no_utf_8_in_a_comment_and_separators_of_unicode_in_a_field_do_n
     assert load_recording(path).whole().tensions() == [(1.0, 2.0)]
 
 
-def test_of_a_last_line_without_an_end_no_number_is_believed(file):
-    text = 'tension_l,tension_s\n1.5,2.5\n1.5,2.0512\n'
-    assert load_recording(file(text)).damage == ()
+def test_a_last_line_that_was_cut_is_not_believed(file):
+    text = 'tension_l,tension_s\n1.5,2.5123\n1.5,2.0512'
+    assert load_recording(file(text)).whole().tension_s.tolist() == [2.5123, 2.0512]
     for cut in range(1, 5):
         recording = load_recording(file(text[:-cut]))
-        assert recording.tensions() == [(1.5, 2.5)]
+        assert recording.tensions() == [(1.5, 2.5123)]
         assert 'line 3' in recording.damage_summary
-        assert 'has no end and may have been cut' in recording.damage_summary
+        assert 'has no end, so it has been cut' in recording.damage_summary
+    assert load_recording(file('tension_l,tension_s\n1,2')).whole().tensions() == [(1.0, 2.0)]
 
 
 def test_of_much_damage_a_part_is_named_and_the_rest_is_counted(file):

@@ -23,7 +23,8 @@ def load_csv(path: Path) -> Recording:
 
     Empty lines and lines that begin with ``#`` are left alone; an empty field is NaN. A line that
     is not as long as the first, is not UTF-8 or has no number where there should be one is damage.
-    So is a last line without an end: a number in it that was cut would still look like one.
+    So is a last line without an end whose last field is shorter than that of every line before:
+    a number that was cut still looks like one.
     """
     numbered = list(_lines(path.read_bytes()))
     titles = _titles(numbered[0][1]) if numbered else []
@@ -31,6 +32,7 @@ def load_csv(path: Path) -> Recording:
     values: dict[str, list[float]] = {name: [] for name in columns if name != 'state'}
     states: list[str] = []
     damage = []
+    shortest = 0  # last field so far, in characters
     for number, line in numbered[1:]:
         try:
             fields = _fields(line)
@@ -40,12 +42,14 @@ def load_csv(path: Path) -> Recording:
         except (ValueError, IndexError, csv.Error):
             damage.append(f'line {number}, {_shown(line)}, is not a row of {",".join(titles)}')
             continue
-        if not line.endswith(LINE_ENDS):
+        length = len(fields[-1])
+        if not line.endswith(LINE_ENDS) and length < shortest:
             damage.append(
-                f'line {number}, {_shown(line)}, has no end and may have been cut; '
-                'if it is whole, add an end of line'
+                f'line {number}, {_shown(line)}, is shorter than all before it and has no end, '
+                'so it has been cut; if it is whole, add an end of line'
             )
             continue
+        shortest = min(shortest or length, length)
         for kept, value in zip(values.values(), row, strict=True):
             kept.append(value)
         if 'state' in columns:
