@@ -77,6 +77,12 @@ def test_with_memory_each_sample_is_as_the_tracker_answers(walk, monkeypatch, ch
     assert np.isnan(replayed.error[unsure]).all()
 
 
+@pytest.mark.parametrize('deviation', [0.0, -0.01, math.nan, math.inf])
+def test_a_deviation_that_is_none_is_refused(walk, deviation):
+    with pytest.raises(ValueError, match='tension_stddev is .* N, allowed is'):
+        replay(PRELIMINARY, walk, tension_stddev=deviation)
+
+
 def test_the_verb_sums_up_regimes_and_error(tmp_path):
     path = tmp_path / 'run.csv'
     path.write_text(
@@ -168,6 +174,8 @@ def test_of_a_truncated_recording_the_beginning_is_replayed_and_the_rest_is_name
         ([DEMO, '--output', 'out.mcap'], 'needs the time of every sample'),
         ([DEMO, '--estimation', 'guessing'], 'guessing'),
         ([DEMO, '--estimation', 'tracking', '--initial-bend-angle', '3'], 'bend_angle is 3.0'),
+        ([DEMO, '--initial-bend-angle', 'nan'], 'bend_angle is nan'),
+        ([DEMO, '--tension-stddev', '-1'], "--tension-stddev: it is '-1'"),
     ],
 )
 def test_an_error_is_one_line(arguments, named):

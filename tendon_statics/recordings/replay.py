@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..physics import JointDesign, StickSlipTracker, TensionError, TrackedState
+from ..physics.admissible import check_bend_angle
 from ..physics.batch import solve_batch
 from .recording import Floats, Recording
 
@@ -103,8 +104,15 @@ def replay(
     Raises
     ------
     BendAngleError
-        If the initial angle lies beyond the stop.
+        If the initial angle is not a number or lies beyond the stop.
+    ValueError
+        If the deviation is not finite and above 0.
     """
+    if not 0.0 < tension_stddev < math.inf:
+        raise ValueError(
+            f'tension_stddev is {tension_stddev!r} N, allowed is a finite number above 0'
+        )
+    check_bend_angle(design, initial_bend_angle)
     starts = progress(range(0, len(recording), CHUNK))
     if estimation == 'equilibrium':
         parts = [_solved(design, recording, start, tension_stddev) for start in starts]
