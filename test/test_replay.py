@@ -11,7 +11,7 @@ from designs import PRELIMINARY
 from programs import assert_refused, run
 from pyarrow import parquet
 
-from tendon_statics import Recording, TensionError, solve
+from tendon_statics import Recording, RecordingError, TensionError, solve
 from tendon_statics.installed_files import installed_config
 from tendon_statics.physics import StickSlipTracker, slip_margin
 from tendon_statics.recordings import replay as replay_module
@@ -79,7 +79,7 @@ def test_with_memory_each_sample_is_as_the_tracker_answers(walk, monkeypatch, ch
 
 @pytest.mark.parametrize('deviation', [0.0, -0.01, math.nan, math.inf])
 def test_a_deviation_that_is_none_is_refused(walk, deviation):
-    with pytest.raises(ValueError, match='tension_stddev is .* N, allowed is'):
+    with pytest.raises(ValueError, match=r'tension_stddev is .* N, allowed is'):
         replay(PRELIMINARY, walk, tension_stddev=deviation)
 
 
@@ -98,6 +98,39 @@ def test_the_verb_sums_up_regimes_and_error(tmp_path):
         assert named in done.stdout
     done = run('replay', path, '--estimation', 'tracking', '--initial-bend-angle', '0.1')
     assert 'estimation    tracking' in done.stdout
+
+
+@pytest.mark.parametrize(
+    ('times', 'named'),
+    [
+        ([0.0, 1.0, 1.0, 2.0], ''),
+        ([0.0, math.nan, 0.5, 2.0], ''),
+        ([0.0, 1.0, math.nan, 0.5], 'from 1 s to 0.5 s at sample 4 of 4'),
+        ([3.0, 2.0, 1.0, 4.0], 'from 3 s to 2 s at sample 2 of 4, and back at 1 more'),
+    ],
+)
+def test_only_where_time_does_not_go_back_a_unit_is_tracked(times, named):
+    ones = np.ones(4)
+    recording = Recording(ones, ones, time=times, name='run')
+    assert (named in recording.disorder) if named else (recording.disorder == '')
+    assert len(replay(PRELIMINARY, recording).regime) == 4
+    if not named:
+        replay(PRELIMINARY, recording, 'tracking')
+        return
+    with pytest.raises(RecordingError, match=f'^run: time goes back {named}'):
+        replay(PRELIMINARY, recording, 'tracking')
+
+
+def test_the_verb_says_that_time_goes_back_or_is_missing(tmp_path):
+    path = tmp_path / 'run.csv'
+    path.write_text('time,tension_l,tension_s\n0,1,2\n2,1,2\n,1,2\n1,1,2\n')
+    done = run('replay', path)
+    assert (done.returncode, done.stderr) == (0, '')
+    assert 'without time  1 samples' in done.stdout
+    assert 'order         time goes back from 2 s to 1 s at sample 4 of 4\n' in done.stdout
+    assert 'Hz' not in done.stdout
+    for verb in (['replay', path, '--estimation', 'tracking'], ['track', path]):
+        assert_refused(run(*verb), 'run.csv: time goes back from 2 s to 1 s')
 
 
 @pytest.mark.parametrize('ending', ['csv', 'parquet'])

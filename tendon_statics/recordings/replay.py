@@ -105,6 +105,8 @@ def replay(
     ------
     BendAngleError
         If the initial angle is not a number or lies beyond the stop.
+    RecordingError
+        If a unit is to be tracked through a recording in which time goes back.
     ValueError
         If the deviation is not finite and above 0.
     """
@@ -117,6 +119,7 @@ def replay(
     if estimation == 'equilibrium':
         parts = [_solved(design, recording, start, tension_stddev) for start in starts]
     else:
+        recording.in_order()
         tracker = StickSlipTracker(design, initial_bend_angle)
         parts = [_tracked(tracker, recording, start, tension_stddev) for start in starts]
     regime, numbers, assured = zip(*parts, strict=True)
