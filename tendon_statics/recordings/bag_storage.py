@@ -11,6 +11,7 @@ from typing import Any
 
 from .errors import RecordingError
 from .libraries import needed
+from .progress import Progress, unseen
 
 PURPOSE = 'ROS bags'
 
@@ -29,7 +30,7 @@ class Messages:
         self.damage: list[str] = []
 
 
-def read_messages(path: Path, topics: Collection[str]) -> Messages:
+def read_messages(path: Path, topics: Collection[str], progress: Progress = unseen) -> Messages:
     """Read the messages of some topics from a bag's file or folder.
 
     Raises
@@ -39,7 +40,7 @@ def read_messages(path: Path, topics: Collection[str]) -> Messages:
     """
     messages = Messages()
     if not path.is_dir():
-        _read_file(path, topics, messages)
+        _read_file(path, topics, messages, progress)
         return messages
     files = sorted([*path.glob('*.mcap'), *path.glob('*.db3')])
     if not files:
@@ -49,7 +50,7 @@ def read_messages(path: Path, topics: Collection[str]) -> Messages:
         )
     for file in files:
         try:
-            _read_file(file, topics, messages)
+            _read_file(file, topics, messages, progress)
         except RecordingError as error:
             if len(files) == 1:
                 raise
@@ -57,12 +58,14 @@ def read_messages(path: Path, topics: Collection[str]) -> Messages:
     return messages
 
 
-def _read_file(path: Path, topics: Collection[str], messages: Messages) -> None:
+def _read_file(
+    path: Path, topics: Collection[str], messages: Messages, progress: Progress
+) -> None:
     types = _Types()
     is_mcap = path.suffix == '.mcap'
     records = (_mcap_records if is_mcap else _sqlite_records)(path, messages)
     unreadable: dict[str, int] = defaultdict(int)
-    for topic, kind, definition, log_time, data in records:
+    for topic, kind, definition, log_time, data in progress(records, 'reading'):
         if topic not in topics:
             continue
         try:

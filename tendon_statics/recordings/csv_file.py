@@ -8,10 +8,11 @@ from pathlib import Path
 
 from .columns import Column, find_columns
 from .errors import RecordingError
+from .progress import Progress, unseen
 from .recording import Recording
 
 
-def load_csv(path: Path) -> Recording:
+def load_csv(path: Path, progress: Progress = unseen) -> Recording:
     """Read a CSV file whose first line names the columns, as `load_recording` does.
 
     Empty lines and lines that begin with ``#`` are left alone; an empty field is NaN. A line that
@@ -31,7 +32,7 @@ def load_csv(path: Path) -> Recording:
     values: dict[str, list[float]] = {name: [] for name in columns if name != 'state'}
     states: list[str] = []
     damage = []
-    for number, line in numbered[1:]:
+    for number, line in progress(numbered[1:], 'reading'):
         fields = _fields(line)
         try:
             row = [_number(fields, columns[name]) for name in values]

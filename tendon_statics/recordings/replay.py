@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from ..physics import JointDesign, StickSlipTracker, TensionError, TrackedState
 from ..physics.admissible import check_bend_angle
 from ..physics.batch import solve_batch
+from .progress import Progress, unseen
 from .recording import Floats, Recording
 
 ESTIMATIONS = ('equilibrium', 'tracking')
@@ -21,9 +21,6 @@ CHUNK = 20_000
 
 INVALID = 'invalid'
 """Regime of a sample that the model does not take"""
-
-Progress = Callable[[Iterable[int]], Iterable[int]]
-"""Wraps an iterable over the beginnings of chunks"""
 
 
 class Replay(NamedTuple):
@@ -85,7 +82,7 @@ def replay(
     *,
     initial_bend_angle: float = 0.0,
     tension_stddev: float = 0.01,
-    progress: Progress = iter,
+    progress: Progress = unseen,
 ) -> Replay:
     """Estimate every sample of a recording.
 
@@ -99,7 +96,7 @@ def replay(
     tension_stddev : float
         Standard deviation of each tension in N.
     progress : callable
-        Is given the beginnings of the chunks of samples, and passes them on.
+        A `Progress`, to show how far the solving is.
 
     Raises
     ------
@@ -115,7 +112,7 @@ def replay(
             f'tension_stddev is {tension_stddev!r} N, allowed is a finite number above 0'
         )
     check_bend_angle(design, initial_bend_angle)
-    starts = progress(range(0, len(recording), CHUNK))
+    starts = progress(range(0, len(recording), CHUNK), 'solving')
     if estimation == 'equilibrium':
         parts = [_solved(design, recording, start, tension_stddev) for start in starts]
     else:
