@@ -13,13 +13,11 @@ DELAY = 1.0
 T = TypeVar('T')
 
 
-def with_progress(items: Iterable[T], doing: str, total: int | None = None) -> Iterable[T]:
+def with_progress(items: Iterable[T], doing: str) -> Iterable[T]:
     """Pass items on and show on stderr how far they are; without tqdm just pass them on."""
     if not sys.stderr.isatty() or find_spec('tqdm') is None:
         return items
     from tqdm import tqdm
 
-    bar: Iterable[T] = tqdm(
-        items, desc=doing, total=total, delay=DELAY, leave=False, unit='', unit_scale=True
-    )
+    bar: Iterable[T] = tqdm(items, desc=doing, delay=DELAY, leave=False, unit='', unit_scale=True)
     return bar

@@ -16,6 +16,9 @@ from .progress import Progress, unseen
 
 Columns = Mapping[str, NDArray[Any]]
 
+ROWS = 20_000
+"""Rows of a CSV file written at once, after which progress is shown"""
+
 
 def write_table(path: Path, columns: Columns, progress: Progress = unseen) -> None:
     """Write columns of one length to a ``.csv`` or ``.parquet`` file.
@@ -45,8 +48,10 @@ def write_csv(file: TextIO, columns: Columns, progress: Progress = unseen) -> No
     """Write columns of one length as CSV; NaN is an empty field."""
     writer = csv.writer(file, lineterminator='\n')
     writer.writerow(columns)
-    fields = [_fields(values) for values in columns.values()]
-    writer.writerows(progress(zip(*fields, strict=True), 'writing', len(fields[0])))
+    length = max(map(len, columns.values()))
+    for start in progress(range(0, length, ROWS), 'writing'):
+        block = (_fields(values[start : start + ROWS]) for values in columns.values())
+        writer.writerows(zip(*block, strict=True))
 
 
 def _fields(values: NDArray[Any]) -> list[object]:
