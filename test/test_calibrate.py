@@ -125,7 +125,7 @@ def test_the_node_takes_the_fitted_file(tmp_path, session, listener):
             ['POINT', '--fit', 'mass', '--output', '/no/such/folder/fitted.yaml'],
             'cannot be written',
         ),
-        (['POINT', '--tension-stddev', '0'], 'tension_stddev is 0.0'),
+        (['POINT', '--tension-stddev', '0'], "--tension-stddev: it is '0'"),
         (['POINT', '--motion-step-deg', '-1'], 'which must be above 0'),
         (['POINT', '--motion-step-deg', '1'], 'none of 1 samples is known to be slipping'),
     ],

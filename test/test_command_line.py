@@ -73,6 +73,10 @@ def test_a_design_file_is_used(tmp_path):
         (['solve', '--tension-l', '0.05', '--tension-s', '0.1'], 'weight'),
         ([*CASE, '--design', 'missing.yaml'], 'missing.yaml'),
         ([*CASE, '--format', 'xml'], 'xml'),
+        *(
+            ([*CASE, f'--tension-stddev={value}'], f"--tension-stddev: it is '{value}'")
+            for value in ('0', '-0.01', 'nan', 'inf', 'some')
+        ),
         (['plot', 'residual', '--output', 'figure.doc'], 'figure.doc'),
         (['plot', 'residual', '--output', '/no/such/folder/figure.svg'], 'cannot be written'),
         (['plot'], 'FIGURE'),

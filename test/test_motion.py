@@ -28,6 +28,13 @@ def test_a_missing_angle_is_no_motion():
     assert states(0.0) == ['held']
 
 
+def test_motion_is_not_looked_for_where_time_goes_back():
+    ones = [1.0] * 3
+    recording = Recording(ones, ones, [0.0, 0.0, 0.3], time=[0.0, 2.0, 1.0])
+    with pytest.raises(RecordingError, match=r'goes back from 2 s to 1 s at sample 3 of 3: sort'):
+        mark_motion(recording, 0.1)
+
+
 def test_without_an_angle_or_a_step_there_is_nothing_to_mark():
     with pytest.raises(RecordingError, match='no measured bend angle'):
         mark_motion(Recording([1.0], [1.0]), 0.1)

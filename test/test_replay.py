@@ -11,14 +11,65 @@ from designs import PRELIMINARY
 from programs import assert_refused, run
 from pyarrow import parquet
 
-from tendon_statics import Recording, TensionError, solve
+from tendon_statics import Recording, RecordingError, TensionError, solve
 from tendon_statics.installed_files import installed_config
+from tendon_statics.output_file import OutputError
 from tendon_statics.physics import StickSlipTracker, slip_margin
+from tendon_statics.recordings import bag_output
 from tendon_statics.recordings import replay as replay_module
 from tendon_statics.recordings.load import load_recording
 from tendon_statics.recordings.replay import replay
+from tendon_statics.recordings.table_output import write_table
+from tendon_statics.recordings.topics import BagTopics
 
+WRITERS = {
+    'csv': lambda path, replayed: write_table(path, replayed.columns()),
+    'parquet': lambda path, replayed: write_table(path, replayed.columns()),
+    'mcap': bag_output.write_bag,
+}
 DEMO = installed_config('demo_tensions.csv')
+
+
+def _estimated(output):
+    """Column → what an output says of it, where it says something."""
+    if output.suffix == '.mcap':
+        from rosbags.highlevel import AnyReader
+
+        there = {}
+        with AnyReader([output]) as reader:
+            for connection, _, data in reader.messages():
+                if connection.topic.startswith(bag_output.PREFIX):
+                    name = connection.topic.removeprefix(bag_output.PREFIX)
+                    message = reader.deserialize(data, connection.msgtype)
+                    there.setdefault(COLUMN_OF.get(name, name), []).append(message.data)
+        return there
+    if output.suffix == '.parquet':
+        table = parquet.read_table(output).to_pydict()
+    else:
+        rows = list(csv.reader(output.read_text().splitlines()))
+        table = {
+            name: [_read(text) for text in fields] for name, *fields in zip(*rows, strict=True)
+        }
+    first = list(table).index('regime')
+    return {name: [v for v in values if v == v] for name, values in [*table.items()][first:]}
+
+
+COLUMN_OF = {
+    'bend_angle': 'estimated_bend_angle',
+    'bend_angle_stddev': 'estimated_bend_angle_stddev',
+    'joint_pressure': 'estimated_pressure',
+    'joint_pressure_stddev': 'estimated_pressure_stddev',
+}
+
+
+def _read(text):
+    """A field of a CSV file as what it is: a truth, a number or a word."""
+    if text in ('True', 'False'):
+        return text == 'True'
+    try:
+        return float(text or 'nan')
+    except ValueError:
+        return text
 
 
 @pytest.fixture
@@ -77,6 +128,12 @@ def test_with_memory_each_sample_is_as_the_tracker_answers(walk, monkeypatch, ch
     assert np.isnan(replayed.error[unsure]).all()
 
 
+@pytest.mark.parametrize('deviation', [0.0, -0.01, math.nan, math.inf])
+def test_a_deviation_that_is_none_is_refused(walk, deviation):
+    with pytest.raises(ValueError, match=r'tension_stddev is .* N, allowed is'):
+        replay(PRELIMINARY, walk, tension_stddev=deviation)
+
+
 def test_the_verb_sums_up_regimes_and_error(tmp_path):
     path = tmp_path / 'run.csv'
     path.write_text(
@@ -92,6 +149,39 @@ def test_the_verb_sums_up_regimes_and_error(tmp_path):
         assert named in done.stdout
     done = run('replay', path, '--estimation', 'tracking', '--initial-bend-angle', '0.1')
     assert 'estimation    tracking' in done.stdout
+
+
+@pytest.mark.parametrize(
+    ('times', 'named'),
+    [
+        ([0.0, 1.0, 1.0, 2.0], ''),
+        ([0.0, math.nan, 0.5, 2.0], ''),
+        ([0.0, 1.0, math.nan, 0.5], 'from 1 s to 0.5 s at sample 4 of 4'),
+        ([3.0, 2.0, 1.0, 4.0], 'from 3 s to 2 s at sample 2 of 4, and back at 1 more'),
+    ],
+)
+def test_only_where_time_does_not_go_back_a_unit_is_tracked(times, named):
+    ones = np.ones(4)
+    recording = Recording(ones, ones, time=times, name='run')
+    assert (named in recording.disorder) if named else (recording.disorder == '')
+    assert len(replay(PRELIMINARY, recording).regime) == 4
+    if not named:
+        replay(PRELIMINARY, recording, 'tracking')
+        return
+    with pytest.raises(RecordingError, match=f'^run: time goes back {named}'):
+        replay(PRELIMINARY, recording, 'tracking')
+
+
+def test_the_verb_says_that_time_goes_back_or_is_missing(tmp_path):
+    path = tmp_path / 'run.csv'
+    path.write_text('time,tension_l,tension_s\n0,1,2\n2,1,2\n,1,2\n1,1,2\n')
+    done = run('replay', path)
+    assert (done.returncode, done.stderr) == (0, '')
+    assert 'without time  1 samples' in done.stdout
+    assert 'order         time goes back from 2 s to 1 s at sample 4 of 4\n' in done.stdout
+    assert 'Hz' not in done.stdout
+    for verb in (['replay', path, '--estimation', 'tracking'], ['track', path]):
+        assert_refused(run(*verb), 'run.csv: time goes back from 2 s to 1 s')
 
 
 @pytest.mark.parametrize('ending', ['csv', 'parquet'])
@@ -168,6 +258,8 @@ def test_of_a_truncated_recording_the_beginning_is_replayed_and_the_rest_is_name
         ([DEMO, '--output', 'out.mcap'], 'needs the time of every sample'),
         ([DEMO, '--estimation', 'guessing'], 'guessing'),
         ([DEMO, '--estimation', 'tracking', '--initial-bend-angle', '3'], 'bend_angle is 3.0'),
+        ([DEMO, '--initial-bend-angle', 'nan'], 'bend_angle is nan'),
+        ([DEMO, '--tension-stddev', '-1'], "--tension-stddev: it is '-1'"),
     ],
 )
 def test_an_error_is_one_line(arguments, named):
@@ -180,3 +272,75 @@ def test_a_recording_is_never_overwritten_by_its_own_replay(tmp_path):
     before = path.read_bytes()
     assert_refused(run('replay', str(path), '--output', str(path)), 'it is the recording itself')
     assert path.read_bytes() == before
+
+
+def test_a_folder_that_is_a_recording_gets_no_further_file(tmp_path):
+    write_bag(tmp_path / 'bag', [('/tensions', 0.0, bags.array(1.0, 2.0))])
+    before = sorted((tmp_path / 'bag').iterdir())
+    for name in ('bag.mcap', 'out.mcap'):
+        output = tmp_path / 'bag' / name
+        assert_refused(run('replay', tmp_path / 'bag', '--output', output), 'or lies in it')
+    assert sorted((tmp_path / 'bag').iterdir()) == before
+
+
+@pytest.mark.parametrize('ending', ['csv', 'parquet', 'mcap'])
+def test_an_output_holds_what_was_recorded_and_all_that_was_estimated(tmp_path, ending):
+    recording = Recording(
+        tension_l=[1.0, 1.0, 0.0, math.nan],
+        tension_s=[2.0, 1.5, 1.0, 1.0],
+        bend_angle=[0.25, math.nan, 0.1, 0.0],
+        pressure=[400.0, 300.0, math.nan, 0.0],
+        state=['slipping', 'held', '', 'moving'],
+        time=[3.0, 3.001, 3.002, 3.5],
+    )
+    replayed = replay(PRELIMINARY, recording)
+    output = tmp_path / f'out.{ending}'
+    WRITERS[ending](output, replayed)
+    again = load_recording(output, BagTopics(state='/state')).whole()
+    for name in ('tension_l', 'tension_s', 'bend_angle', 'pressure'):
+        np.testing.assert_array_equal(getattr(again, name), getattr(recording, name))
+    assert again.state == recording.state
+    assert 1e-9 * again.time_origin + again.time == pytest.approx(recording.time, abs=1e-9)
+    there = _estimated(output)
+    expected = replayed.columns()
+    for name in ('time', 'tension_l', 'tension_s', 'bend_angle', 'pressure', 'state'):
+        del expected[name]
+    assert there.keys() == expected.keys()
+    for name, values in expected.items():
+        assert there[name] == [v for v in values.tolist() if v == v]
+
+
+def test_an_output_says_nothing_of_what_was_not_recorded(tmp_path):
+    recording = Recording([1.0, 1.0], [2.0, 1.5], time=[0.0, 1.0])
+    for ending, write in WRITERS.items():
+        output = tmp_path / f'out.{ending}'
+        write(output, replay(PRELIMINARY, recording))
+        again = load_recording(output)
+        assert again.bend_angle is again.pressure is again.state is None
+
+
+@pytest.mark.parametrize(
+    ('times', 'named'),
+    [
+        ([-1.0, 0.0], 'sample 1 is at -1 s'),
+        ([0.0, 1e300], 'sample 2 is at 1e+300 s'),
+        ([0.0, 9223372036.9], 'sample 2 is at 9223372037 s'),
+        ([0.0, math.inf], 'needs the time of every sample'),
+        ([0.0, math.nan], 'needs the time of every sample'),
+    ],
+)
+def test_times_that_no_bag_can_hold_are_refused(tmp_path, times, named):
+    data, output = tmp_path / 'run.csv', tmp_path / 'out.mcap'
+    data.write_text('time,tension_l,tension_s\n' + ''.join(f'{time},1,2\n' for time in times))
+    assert_refused(run('replay', data, '--output', output), named)
+    assert not output.exists()
+
+
+def test_times_count_from_their_origin(tmp_path):
+    ones, output = np.ones(2), tmp_path / 'out.mcap'
+    recording = Recording(ones, ones, time=[-1.0, 0.5], time_origin=ORIGIN)
+    bag_output.write_bag(output, replay(PRELIMINARY, recording))
+    assert load_recording(output).time_origin == ORIGIN - 1_000_000_000
+    early = Recording(ones, ones, time=[-1.0, 0.5], time_origin=5)
+    with pytest.raises(OutputError, match='a bag holds times from 0'):
+        bag_output.write_bag(output, replay(PRELIMINARY, early))

@@ -45,13 +45,21 @@ def test_the_map_is_as_solve_answers(folder):
 def test_a_table_has_a_row_for_each_pair(folder):
     rows = list(csv.DictReader((folder / 'map.csv').read_text().splitlines()))
     table = parquet.read_table(folder / 'map.parquet')
-    arrays = np.load(folder / 'map.npz')
+    arrays = dict(np.load(folder / 'map.npz', allow_pickle=False))
     assert len(rows) == table.num_rows == 441
-    assert [row['regime'] for row in rows] == arrays['regime'].ravel().tolist()
-    assert [float(row['tension_l']) for row in rows[:21]] == [0.0] * 21
-    angles = [float(row['bend_angle'] or 'nan') for row in rows]
-    assert angles == pytest.approx(arrays['bend_angle'].ravel().tolist(), nan_ok=True)
-    assert table['bend_angle'].to_pylist() == pytest.approx(angles, nan_ok=True)
+    assert list(rows[0]) == table.column_names == list(arrays)
+    arrays['tension_l'] = np.repeat(arrays['tension_l'], 21)
+    arrays['tension_s'] = np.tile(arrays['tension_s'], 21)
+    for name, values in arrays.items():
+        in_parquet = table[name].to_numpy()
+        np.testing.assert_array_equal(in_parquet, values.ravel())
+        in_csv = [row[name] for row in rows]
+        if values.dtype.kind == 'f':
+            assert [float(text or 'nan') for text in in_csv] == pytest.approx(
+                in_parquet, rel=0.0, abs=0.0, nan_ok=True
+            )
+        else:
+            assert in_csv == [str(value) for value in in_parquet]
 
 
 @pytest.mark.parametrize(
@@ -60,8 +68,16 @@ def test_a_table_has_a_row_for_each_pair(folder):
         ([], '--output'),
         (['--output', 'map.xls'], '.npz, .csv, .parquet'),
         (['--output', '/no/such/folder/map.npz'], 'cannot be written'),
+        (['--output', '/dev/map.csv/map.csv'], 'cannot be written'),
         (['--output', 'map.npz', '--points', '1'], '--points is 1'),
-        (['--output', 'map.npz', '--tension-l-range', '2', '1'], '--tension-l-range is 2 to 1 N'),
+        (['--output', 'map.npz', '--points', '5001'], 'allowed is 2 to 5000'),
+        *(
+            (
+                ['--output', 'map.npz', '--tension-l-range', low, high],
+                f'--tension-l-range is {low} to {high} N, which must rise from 0 on',
+            )
+            for low, high in (('2', '1'), ('1', '1'), ('-1', '1'), ('nan', '1'), ('0', 'inf'))
+        ),
     ],
 )
 def test_an_error_is_one_line(arguments, named):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 
 from ..design_file import default_design_path, load_design
 from ..physics import JointDesign
@@ -47,11 +48,22 @@ def add_tension_stddev_option(parser: argparse.ArgumentParser) -> None:
     """Add ``--tension-stddev N``."""
     parser.add_argument(
         '--tension-stddev',
-        type=float,
+        type=_deviation,
         default=0.01,
         metavar='N',
         help='standard deviation of each tension in N; default: %(default)s',
     )
+
+
+def _deviation(text: str) -> float:
+    """Return a standard deviation, of which there is none that is not finite and above 0."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f'it is {text!r}, allowed is a finite number above 0')
+    return value
 
 
 def add_format_option(parser: argparse.ArgumentParser) -> None:

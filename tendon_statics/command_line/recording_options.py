@@ -9,6 +9,7 @@ from pathlib import Path
 from ..recordings.load import ENDINGS, load_recording
 from ..recordings.recording import Recording
 from ..recordings.topics import FORCE_COMPONENTS, BagTopics
+from .progress import with_progress
 
 DEFAULTS = BagTopics()
 
@@ -78,7 +79,7 @@ def recording_from(options: argparse.Namespace) -> Recording:
         state=options.state_topic,
         max_skew=options.max_skew,
     )
-    return load_recording(options.data, topics)
+    return load_recording(options.data, topics, progress=with_progress)
 
 
 def report_damage(recording: Recording) -> int:

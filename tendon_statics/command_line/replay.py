@@ -9,6 +9,7 @@ from pathlib import Path
 from ..output_file import OutputError
 from ..physics import JointDesign
 from ..recordings.bag_output import write_bag
+from ..recordings.progress import Progress
 from ..recordings.recording import Recording
 from ..recordings.replay import ESTIMATIONS, Replay, replay
 from ..recordings.table_output import write_table
@@ -54,14 +55,14 @@ def run(options: argparse.Namespace) -> int:
     """Replay, write the samples, print a summary."""
     write = _writer(options.output)
     recording = recording_from(options)
-    if write is not None and options.output.exists() and options.output.samefile(options.data):
+    if write is not None and _is_within(options.output, options.data):
         raise OutputError(
-            f'{options.output}: it is the recording itself, which must not be overwritten; '
-            'name another file'
+            f'{options.output}: it is the recording itself, or lies in it, which must stay as it '
+            'is; name another file'
         )
     replayed = replay_from(options, design_from(options), recording)
     if write is not None:
-        write(options.output, replayed)
+        write(options.output, replayed, with_progress)
     print(fact_lines(replay_facts(replayed)))
     return report_damage(recording)
 
@@ -78,7 +79,12 @@ def replay_from(options: argparse.Namespace, design: JointDesign, recording: Rec
     )
 
 
-def _writer(path: Path | None) -> Callable[[Path, Replay], None] | None:
+def _is_within(path: Path, recording: Path) -> bool:
+    """Whether a file is the recording, or in the folder that is."""
+    return path.resolve().is_relative_to(recording.resolve())
+
+
+def _writer(path: Path | None) -> _Writer | None:
     """Return what writes to such a file; found before the work, so that none is in vain."""
     if path is None:
         return None
@@ -87,11 +93,12 @@ def _writer(path: Path | None) -> Callable[[Path, Replay], None] | None:
     return _WRITERS[path.suffix]
 
 
-def _write_table(path: Path, replayed: Replay) -> None:
-    write_table(path, replayed.columns())
+def _write_table(path: Path, replayed: Replay, progress: Progress) -> None:
+    write_table(path, replayed.columns(), progress)
 
 
-_WRITERS: dict[str, Callable[[Path, Replay], None]] = {
+_Writer = Callable[[Path, Replay, Progress], None]
+_WRITERS: dict[str, _Writer] = {
     '.csv': _write_table,
     '.parquet': _write_table,
     '.mcap': write_bag,

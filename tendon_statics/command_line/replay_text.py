@@ -23,10 +23,15 @@ def replay_facts(replay: Replay) -> Facts:
 
 def _recording_facts(recording: Recording) -> Facts:
     facts = [('recording', f'{recording.name}: {len(recording)} samples')]
-    if recording.time is None or len(recording) < 2:
+    if recording.time is None:
         return facts
-    steps = np.diff(recording.time)
-    steps = steps[np.isfinite(steps)]
+    times = recording.time[np.isfinite(recording.time)]
+    untimed = len(recording) - len(times)
+    if untimed:
+        facts.append(('without time', f'{untimed} samples'))
+    if recording.disorder:
+        return [*facts, ('order', recording.disorder)]
+    steps = np.diff(times)
     if len(steps) and np.median(steps) > 0.0:
         facts.append(
             (

@@ -14,6 +14,7 @@ from ..physics import EquilibriumBatch
 from ..physics.batch import solve_batch
 from ..recordings.table_output import write_arrays, write_table
 from .options import UsageError, add_design_option, design_from
+from .progress import with_progress
 from .tables import markdown_table
 
 ENDINGS = ('.npz', '.csv', '.parquet')
@@ -90,7 +91,7 @@ def run(options: argparse.Namespace) -> None:
         axes = {'tension_l': arrays['tension_l'][:, 0], 'tension_s': arrays['tension_s'][0]}
         write_arrays(path, arrays | axes)
     else:
-        write_table(path, {name: values.ravel() for name, values in arrays.items()})
+        write_table(path, {name: values.ravel() for name, values in arrays.items()}, with_progress)
     names, counts = np.unique(answers.regime_names, return_counts=True)
     rows = [
         (str(name), str(count), f'{100.0 * count / answers.regime.size:.3g}')

@@ -12,6 +12,7 @@ from ..recordings.load import load_recording
 from ..recordings.replay import replay
 from ..recordings.table_output import write_csv
 from .options import add_design_option, design_from
+from .progress import with_progress
 from .recording_options import report_damage
 
 
@@ -34,12 +35,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print a row for each sample: angle in rad, regime, margin, certainty."""
-    recording = load_recording(options.file)
+    recording = load_recording(options.file, progress=with_progress)
     tracked = replay(
         design_from(options),
         recording,
         'tracking',
         initial_bend_angle=options.initial_bend_angle,
+        progress=with_progress,
     )
     columns: dict[str, NDArray[Any]] = {}
     if recording.time is not None:

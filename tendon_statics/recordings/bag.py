@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from .bag_storage import END_OF_TIME, Messages, read_messages
 from .errors import RecordingError
+from .progress import Progress, unseen
 from .recording import Floats, Recording
 from .topics import BagTopics, full_name
 
@@ -34,7 +35,7 @@ class _Series(NamedTuple):
     values: Sequence[Any]
 
 
-def load_bag(path: Path, topics: BagTopics) -> Recording:
+def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Recording:
     """Read a bag, as `load_recording` does: one sample for each message of tensions.
 
     The time of a message is the stamp in its header, where it has one, else the time at which it
@@ -43,7 +44,7 @@ def load_bag(path: Path, topics: BagTopics) -> Recording:
     """
     required = [*topics.tensions, topics.bend_angle, topics.pressure, topics.state]
     wanted = [*required, DEFAULT_BEND_ANGLE, DEFAULT_PRESSURE]
-    bag = read_messages(path, [full_name(name) for name in wanted if name])
+    bag = read_messages(path, [full_name(name) for name in wanted if name], progress)
     for name in filter(None, required):
         if full_name(name) not in bag.types:
             there = ', '.join(f'{topic} ({kind})' for topic, kind in sorted(bag.types.items()))

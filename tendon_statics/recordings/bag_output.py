@@ -2,96 +2,135 @@
 
 from __future__ import annotations
 
-import heapq
-from collections.abc import Callable, Iterator, Sequence
+import math
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..output_file import OutputError, output_file
 from .bag import ARRAY, DEFAULT_BEND_ANGLE, DEFAULT_PRESSURE, NUMBER, TEXT
 from .libraries import needed
+from .progress import Progress, unseen
+from .recording import Floats, Recording
 from .replay import Replay
 
+BOOLEAN = 'std_msgs/msg/Bool'
+
+STATE = '/state'
 PREFIX = '/replay/'
 
-TOPICS = {
-    '/tensions': ARRAY,
-    DEFAULT_BEND_ANGLE: NUMBER,
-    DEFAULT_PRESSURE: NUMBER,
-    f'{PREFIX}regime': TEXT,
-    f'{PREFIX}bend_angle': NUMBER,
-    f'{PREFIX}joint_pressure': NUMBER,
-    f'{PREFIX}slip_margin': NUMBER,
-}
-"""Topic → type: the estimator's own names; a number has a message only where it is determined"""
+LATEST = 2**63 - 1
+"""ns since 1970; it is in the year 2262"""
+
+BEYOND = 1e10
+"""s; from wherever in a bag's time, that is outside of it"""
 
 
-def write_bag(path: Path, replay: Replay) -> None:
+class _Series(NamedTuple):
+    """What is said on one topic."""
+
+    topic: str
+    kind: str
+    values: Sequence[Any]
+    """One for each sample, None where there is no message"""
+
+
+def write_bag(path: Path, replay: Replay, progress: Progress = unseen) -> None:
     """Write a replay to an ``.mcap`` file that ROS tools take, and `load_recording` too.
+
+    What was recorded is on the topics that are read without being named, and on ``/state``, as it
+    was, with NaN where it is missing. What was estimated is on the topics below ``/replay/``; a
+    number has a message only where it is determined.
 
     Raises
     ------
     OutputError
-        If the recording has no times, or the file cannot be written.
+        If the recording has no times or such as no bag can hold, or the file cannot be written.
     RecordingError
         If a library is missing.
     """
     writers, typesys = needed('mcap.writer', 'rosbags.typesys', purpose='ROS bags')
-    if replay.recording.time is None or not np.isfinite(replay.recording.time).all():
-        raise OutputError(f'{path}: a bag needs the time of every sample, which is not recorded')
+    times = _times(path, replay.recording)
     store = typesys.get_typestore(typesys.Stores.ROS2_JAZZY)
     make = _constructors(store)
-    origin = replay.recording.time_origin
-    times = [origin + round(1e9 * time) for time in replay.recording.time.tolist()]
+    all_series = _recorded(replay.recording) + _estimated(replay)
     with output_file(path) as temporary, temporary.open('wb') as file:
         writer = writers.Writer(file)
         writer.start(profile='ros2')
         schemas, channels = {}, {}
-        for topic, kind in TOPICS.items():
+        for topic, kind, _ in all_series:
             if kind not in schemas:
                 definition, _ = store.generate_msgdef(kind, ros_version=2)
                 schemas[kind] = writer.register_schema(kind, 'ros2msg', definition.encode())
             channels[topic] = writer.register_channel(topic, 'cdr', schemas[kind])
-        for time, topic, value in heapq.merge(*_timed(replay, times), key=lambda entry: entry[0]):
-            kind = TOPICS[topic]
-            data = bytes(store.serialize_cdr(make[kind](value), kind))
-            writer.add_message(channels[topic], time, data, time)
+        order = sorted(range(len(times)), key=times.__getitem__)
+        for sample in progress(order, 'writing'):
+            time = times[sample]
+            for topic, kind, values in all_series:
+                value = values[sample]
+                if value is not None:
+                    data = bytes(store.serialize_cdr(make[kind](value), kind))
+                    writer.add_message(channels[topic], time, data, time)
         writer.finish()
 
 
-def _timed(replay: Replay, times: Sequence[int]) -> list[Iterator[tuple[int, str, Any]]]:
-    """Messages of each topic in the order of time."""
-    recording = replay.recording
-    order = sorted(range(len(times)), key=times.__getitem__)
+def _times(path: Path, recording: Recording) -> list[int]:
+    """Return the time of each sample in ns since 1970.
 
-    def numbers(topic: str, values: Any) -> Iterator[tuple[int, str, Any]]:
-        known = np.isfinite(values)
-        return ((times[i], topic, float(values[i])) for i in order if known[i])
+    Raises
+    ------
+    OutputError
+        If one has none, or one that a bag cannot hold.
+    """
+    if recording.time is None or not np.isfinite(recording.time).all():
+        raise OutputError(f'{path}: a bag needs the time of every sample, which is not recorded')
+    near = recording.time.clip(-BEYOND, BEYOND).tolist()
+    times = [recording.time_origin + round(1e9 * time) for time in near]
+    for sample, time in enumerate(times):
+        if not 0 <= time <= LATEST:
+            since_1970 = 1e-9 * recording.time_origin + float(recording.time[sample])
+            raise OutputError(
+                f'{path}: a bag holds times from 0 to {1e-9 * LATEST:.10g} s since 1970, and '
+                f'sample {sample + 1} is at {since_1970:.10g} s; write a table, or shift the times'
+            )
+    return times
 
-    tensions, regimes = recording.tensions(), replay.regime.tolist()
-    series = [
-        ((times[i], '/tensions', tensions[i]) for i in order),
-        ((times[i], f'{PREFIX}regime', regimes[i]) for i in order),
-        numbers(f'{PREFIX}bend_angle', replay.bend_angle),
-        numbers(f'{PREFIX}joint_pressure', replay.pressure),
-        numbers(f'{PREFIX}slip_margin', replay.slip_margin),
-    ]
-    for topic, measured in (
+
+def _recorded(recording: Recording) -> list[_Series]:
+    series = [_Series('/tensions', ARRAY, recording.tensions())]
+    for topic, values in (
         (DEFAULT_BEND_ANGLE, recording.bend_angle),
         (DEFAULT_PRESSURE, recording.pressure),
     ):
-        if measured is not None:
-            series.append(numbers(topic, measured))
+        if values is not None:
+            series.append(_Series(topic, NUMBER, values.tolist()))
+    if recording.state is not None:
+        series.append(_Series(STATE, TEXT, recording.state))
     return series
+
+
+def _estimated(replay: Replay) -> list[_Series]:
+    return [
+        _Series(f'{PREFIX}regime', TEXT, replay.regime.tolist()),
+        _Series(f'{PREFIX}bend_angle', NUMBER, _determined(replay.bend_angle)),
+        _Series(f'{PREFIX}bend_angle_stddev', NUMBER, _determined(replay.bend_angle_stddev)),
+        _Series(f'{PREFIX}joint_pressure', NUMBER, _determined(replay.pressure)),
+        _Series(f'{PREFIX}joint_pressure_stddev', NUMBER, _determined(replay.pressure_stddev)),
+        _Series(f'{PREFIX}slip_margin', NUMBER, _determined(replay.slip_margin)),
+        _Series(f'{PREFIX}angle_assured', BOOLEAN, replay.angle_assured.tolist()),
+    ]
+
+
+def _determined(values: Floats) -> list[float | None]:
+    return [value if math.isfinite(value) else None for value in values.tolist()]
 
 
 def _constructors(store: Any) -> dict[str, Callable[[Any], Any]]:
     """Type → what makes its message of a value."""
     layout = store.types['std_msgs/msg/MultiArrayLayout'](dim=[], data_offset=0)
-    return {
-        ARRAY: lambda pair: store.types[ARRAY](layout=layout, data=np.array(pair)),
-        NUMBER: lambda value: store.types[NUMBER](data=value),
-        TEXT: lambda value: store.types[TEXT](data=value),
+    array = store.types[ARRAY]
+    return {kind: store.types[kind] for kind in (NUMBER, TEXT, BOOLEAN)} | {
+        ARRAY: lambda pair: array(layout=layout, data=np.array(pair))
     }

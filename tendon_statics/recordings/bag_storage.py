@@ -11,6 +11,7 @@ from .bag_record import PURPOSE, Record
 from .errors import RecordingError
 from .libraries import needed
 from .mcap_file import mcap_records
+from .progress import Progress, unseen
 from .sqlite_file import sqlite_records
 
 ZSTD_MAGIC = b'\x28\xb5\x2f\xfd'
@@ -31,7 +32,7 @@ class Messages:
         self.damage: list[str] = []
 
 
-def read_messages(path: Path, topics: Collection[str]) -> Messages:
+def read_messages(path: Path, topics: Collection[str], progress: Progress = unseen) -> Messages:
     """Read the messages of some topics from a bag's file or folder.
 
     Raises
@@ -41,7 +42,7 @@ def read_messages(path: Path, topics: Collection[str]) -> Messages:
     """
     messages = Messages()
     if not path.is_dir():
-        messages.damage += _read_file(path, topics, messages)
+        messages.damage += _read_file(path, topics, messages, progress)
         return messages
     files = sorted([*path.glob('*.mcap'), *path.glob('*.db3')])
     if not files:
@@ -51,7 +52,7 @@ def read_messages(path: Path, topics: Collection[str]) -> Messages:
         )
     for file in files:
         try:
-            damage = _read_file(file, topics, messages)
+            damage = _read_file(file, topics, messages, progress)
         except (RecordingError, OSError) as error:
             if len(files) == 1:
                 raise
@@ -60,13 +61,15 @@ def read_messages(path: Path, topics: Collection[str]) -> Messages:
     return messages
 
 
-def _read_file(path: Path, topics: Collection[str], messages: Messages) -> list[str]:
+def _read_file(
+    path: Path, topics: Collection[str], messages: Messages, progress: Progress
+) -> list[str]:
     """Add the messages of a file to those there are; return what of it cannot be read."""
     types = _Types()
     read = mcap_records if path.suffix == '.mcap' else sqlite_records
     damage: list[str] = []
     unreadable: dict[str, int] = defaultdict(int)
-    for record in read(path, messages.types, damage):
+    for record in progress(read(path, messages.types, damage), 'reading'):
         if record.topic not in topics:
             continue
         try:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from .columns import Column, find_columns
 from .errors import RecordingError
+from .progress import Progress, unseen
 from .recording import Recording
 
 LINE_ENDS = (b'\n', b'\r')
@@ -18,7 +19,7 @@ MOST_SHOWN = 80
 """Characters of a damaged line that are shown"""
 
 
-def load_csv(path: Path) -> Recording:
+def load_csv(path: Path, progress: Progress = unseen) -> Recording:
     """Read a CSV file whose first line names the columns, as `load_recording` does.
 
     Empty lines and lines that begin with ``#`` are left alone; an empty field is NaN. A line that
@@ -33,7 +34,7 @@ def load_csv(path: Path) -> Recording:
     states: list[str] = []
     damage = []
     shortest = 0  # last field so far, in characters
-    for number, line in numbered[1:]:
+    for number, line in progress(numbered[1:], 'reading'):
         try:
             fields = _fields(line)
             row = [_number(fields, columns[name]) for name in values]

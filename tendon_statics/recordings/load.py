@@ -5,13 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 
 from .errors import RecordingError, one_line
+from .progress import Progress, unseen
 from .recording import Recording
 from .topics import BagTopics
 
 ENDINGS = ('.csv', '.parquet', '.mcap', '.db3')
 
 
-def load_recording(path: str | Path, topics: BagTopics | None = None) -> Recording:
+def load_recording(
+    path: str | Path, topics: BagTopics | None = None, *, progress: Progress = unseen
+) -> Recording:
     """Read a recorded session.
 
     A table, CSV or Parquet, has columns ``tension_l``, ``tension_s`` and, where there are such,
@@ -25,6 +28,8 @@ def load_recording(path: str | Path, topics: BagTopics | None = None) -> Recordi
         Its ending says what it is.
     topics : BagTopics, optional
         Of a bag; of a table they are not looked at.
+    progress : callable
+        A `Progress`, to show how far the reading is.
 
     Returns
     -------
@@ -43,15 +48,15 @@ def load_recording(path: str | Path, topics: BagTopics | None = None) -> Recordi
         if path.is_dir() or path.suffix in ('.mcap', '.db3'):
             from .bag import load_bag
 
-            return load_bag(path, topics or BagTopics())
+            return load_bag(path, topics or BagTopics(), progress)
         if path.suffix == '.parquet':
             from .parquet_file import load_parquet
 
-            return load_parquet(path)
+            return load_parquet(path, progress)
         if path.suffix == '.csv':
             from .csv_file import load_csv
 
-            return load_csv(path)
+            return load_csv(path, progress)
     except RecordingError as error:
         raise RecordingError(f'{path}: {one_line(error)}') from None
     except OSError as error:

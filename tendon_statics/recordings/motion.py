@@ -26,12 +26,13 @@ def mark_motion(recording: Recording, step: float) -> Recording:
     Raises
     ------
     RecordingError
-        If there is no angle, or the step is not above 0.
+        If there is no angle, time goes back, or the step is not above 0.
     """
     if recording.bend_angle is None:
         raise RecordingError('there is no measured bend angle in the data')
     if not step > 0.0:
         raise RecordingError(f'the step of a motion is {step!r} rad, which must be above 0')
+    recording.in_order()
     moves = np.zeros(len(recording) + 1, dtype=bool)
     moves[1:-1] = abs(np.diff(recording.bend_angle)) > step
     before, after = moves[:-1], moves[1:]

@@ -9,10 +9,11 @@ import numpy as np
 from .columns import Column, find_columns
 from .errors import RecordingError
 from .libraries import needed
+from .progress import Progress, unseen
 from .recording import Floats, Recording
 
 
-def load_parquet(path: Path) -> Recording:
+def load_parquet(path: Path, progress: Progress = unseen) -> Recording:
     """Read a Parquet file, as `load_recording` does; a missing value is NaN.
 
     A row group that cannot be read is damage; without the file's end nothing can.
@@ -29,7 +30,7 @@ def load_parquet(path: Path) -> Recording:
         columns = find_columns(file.schema_arrow.names)
         titles = [file.schema_arrow.names[column.place] for column in columns.values()]
         first_row = 0
-        for group in range(file.num_row_groups):
+        for group in progress(range(file.num_row_groups), 'reading'):
             rows = file.metadata.row_group(group).num_rows
             try:
                 part = file.read_row_group(group, columns=titles)

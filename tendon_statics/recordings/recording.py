@@ -22,10 +22,11 @@ MOST_NAMED = 3
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Recording:
-    """Samples of one unit, in the order of time; SI units, angles in rad.
+    """Samples of one unit in the order of the file; SI units, angles in rad.
 
     All arrays have the shape ``(n,)``. A sample may hold NaN or tensions that the model does not
-    take: it is kept, and whoever uses the recording says what becomes of it.
+    take: it is kept, and whoever uses the recording says what becomes of it. So are samples whose
+    times are not in order; what needs the order asks for it by `in_order`.
     """
 
     tension_l: Floats
@@ -79,6 +80,40 @@ class Recording:
         named = '; '.join(self.damage[:MOST_NAMED])
         more = len(self.damage) - MOST_NAMED
         return named + (f'; and {more} more such places' if more > 0 else '')
+
+    @property
+    def disorder(self) -> str:
+        """Where time goes back from one sample to the next, in one line; empty if nowhere.
+
+        A sample without a time is taken to stand where it belongs.
+        """
+        if self.time is None:
+            return ''
+        timed = np.flatnonzero(~np.isnan(self.time))
+        back = timed[1:][self.time[timed[1:]] < self.time[timed[:-1]]]
+        if not len(back):
+            return ''
+        before = timed[np.searchsorted(timed, back[0]) - 1]
+        more = f', and back at {len(back) - 1} more' if len(back) > 1 else ''
+        return (
+            f'time goes back from {self.time[before]:.9g} s to {self.time[back[0]]:.9g} s '
+            f'at sample {back[0] + 1} of {len(self)}{more}'
+        )
+
+    def in_order(self) -> Recording:
+        """Return the recording if no sample is earlier than the one before it.
+
+        Raises
+        ------
+        RecordingError
+            If one is; the text names the first.
+        """
+        if self.disorder:
+            raise RecordingError(
+                f'{self.name}: {self.disorder}: sort it by time, or, if its order is right, leave '
+                'the times out'
+            )
+        return self
 
     def whole(self) -> Recording:
         """Return the recording if all of its file could be read.

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..physics import JointDesign, StickSlipTracker, TensionError, TrackedState
+from ..physics.admissible import check_bend_angle
 from ..physics.batch import solve_batch
+from .progress import Progress, unseen
 from .recording import Floats, Recording
 
 ESTIMATIONS = ('equilibrium', 'tracking')
@@ -20,9 +21,6 @@ CHUNK = 20_000
 
 INVALID = 'invalid'
 """Regime of a sample that the model does not take"""
-
-Progress = Callable[[Iterable[int]], Iterable[int]]
-"""Wraps an iterable over the beginnings of chunks"""
 
 
 class Replay(NamedTuple):
@@ -84,7 +82,7 @@ def replay(
     *,
     initial_bend_angle: float = 0.0,
     tension_stddev: float = 0.01,
-    progress: Progress = iter,
+    progress: Progress = unseen,
 ) -> Replay:
     """Estimate every sample of a recording.
 
@@ -98,17 +96,27 @@ def replay(
     tension_stddev : float
         Standard deviation of each tension in N.
     progress : callable
-        Is given the beginnings of the chunks of samples, and passes them on.
+        A `Progress`, to show how far the solving is.
 
     Raises
     ------
     BendAngleError
-        If the initial angle lies beyond the stop.
+        If the initial angle is not a number or lies beyond the stop.
+    RecordingError
+        If a unit is to be tracked through a recording in which time goes back.
+    ValueError
+        If the deviation is not finite and above 0.
     """
-    starts = progress(range(0, len(recording), CHUNK))
+    if not 0.0 < tension_stddev < math.inf:
+        raise ValueError(
+            f'tension_stddev is {tension_stddev!r} N, allowed is a finite number above 0'
+        )
+    check_bend_angle(design, initial_bend_angle)
+    starts = progress(range(0, len(recording), CHUNK), 'solving')
     if estimation == 'equilibrium':
         parts = [_solved(design, recording, start, tension_stddev) for start in starts]
     else:
+        recording.in_order()
         tracker = StickSlipTracker(design, initial_bend_angle)
         parts = [_tracked(tracker, recording, start, tension_stddev) for start in starts]
     regime, numbers, assured = zip(*parts, strict=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TextIO
@@ -13,11 +12,15 @@ from numpy.typing import NDArray
 
 from ..output_file import OutputError, output_file
 from .libraries import needed
+from .progress import Progress, unseen
 
 Columns = Mapping[str, NDArray[Any]]
 
+ROWS = 20_000
+"""Rows of a CSV file written at once, after which progress is shown"""
 
-def write_table(path: Path, columns: Columns) -> None:
+
+def write_table(path: Path, columns: Columns, progress: Progress = unseen) -> None:
     """Write columns of one length to a ``.csv`` or ``.parquet`` file.
 
     Raises
@@ -32,7 +35,7 @@ def write_table(path: Path, columns: Columns) -> None:
             output_file(path) as temporary,
             temporary.open('w', encoding='utf-8', newline='') as file,
         ):
-            write_csv(file, columns)
+            write_csv(file, columns, progress)
     elif path.suffix == '.parquet':
         pa, parquet = needed('pyarrow', 'pyarrow.parquet', purpose='Parquet files')
         with output_file(path) as temporary:
@@ -41,17 +44,21 @@ def write_table(path: Path, columns: Columns) -> None:
         raise OutputError(f'{path}: a table is written to a file ending in .csv or .parquet')
 
 
-def write_csv(file: TextIO, columns: Columns) -> None:
+def write_csv(file: TextIO, columns: Columns, progress: Progress = unseen) -> None:
     """Write columns of one length as CSV; NaN is an empty field."""
     writer = csv.writer(file, lineterminator='\n')
     writer.writerow(columns)
-    writer.writerows(zip(*(_fields(values) for values in columns.values()), strict=True))
+    length = max(map(len, columns.values()))
+    for start in progress(range(0, length, ROWS), 'writing'):
+        block = (_fields(values[start : start + ROWS]) for values in columns.values())
+        writer.writerows(zip(*block, strict=True))
 
 
 def _fields(values: NDArray[Any]) -> list[object]:
     fields: list[object] = values.tolist()
     if values.dtype.kind == 'f':
-        return ['' if math.isnan(value) else value for value in values.tolist()]
+        for missing in np.flatnonzero(np.isnan(values)).tolist():
+            fields[missing] = ''
     return fields
 
 

@@ -17,6 +17,17 @@ UNITS = {
 }
 """Quantity → unit → what one of it is in SI, which comes first and needs no mention"""
 
+_FOREIGN_TENSION = 'newton newtons g kg lb lbs lbf oz ozf'
+_FOREIGN_UNITS = {
+    'time': 'sec secs second seconds msec millis milliseconds usec micros microseconds nsec nanos '
+    'nanoseconds minutes hours',
+    'tension_l': _FOREIGN_TENSION,
+    'tension_s': _FOREIGN_TENSION,
+    'bend_angle': 'degree degrees radian radians milliradians',
+    'pressure': 'hPa pascal pascals kilopascals megapascals bar mbar psi atm torr mmHg',
+}
+"""Quantity → other names of units, which are not read, but are meant for one where they stand"""
+
 _COLUMN = re.compile(r'(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?')
 
 
@@ -28,12 +39,12 @@ def parse_column(title: str) -> tuple[str, float]:
     Raises
     ------
     RecordingError
-        If the unit is not one of that quantity, or stands where it would be overlooked.
+        If the unit is not one of that quantity, or the title is meant for a quantity but written
+        otherwise, so that it would be overlooked.
     """
-    match = _COLUMN.fullmatch(title.strip())
-    if match is None:
-        return title.strip(), 1.0
-    name, unit = match['name'], match['unit']
+    title = title.strip()
+    match = _COLUMN.fullmatch(title)
+    name, unit = (title, None) if match is None else (match['name'], match['unit'])
     if name in UNITS:
         units = UNITS[name]
         if unit is None:
@@ -43,10 +54,35 @@ def parse_column(title: str) -> tuple[str, float]:
                 f'the unit of {name} is {unit!r}, which is not known; there are {", ".join(units)}'
             )
         return name, units[unit]
-    for quantity, units in UNITS.items():
-        suffix = name.removeprefix(f'{quantity}_')
-        if suffix != name and suffix in units:
+    for quantity, pattern in _MISWRITTEN.items():
+        if name != quantity and pattern.fullmatch(title):
             raise RecordingError(
-                f'there is a column {name}; a unit stands in brackets, {quantity} [{suffix}]'
+                f'there is a column {title!r}, which would be overlooked: write '
+                f'{_as_to_write(quantity, title)}; what is something else needs another name'
             )
     return name, 1.0
+
+
+def _as_to_write(quantity: str, title: str) -> str:
+    units = [*UNITS.get(quantity, ())]
+    if not units:
+        return quantity
+    meant = [unit for unit in units if re.search(rf'[\W_]{unit}\b', title)]
+    return (
+        f'{quantity} or, if it is not in {units[0]}, its unit in brackets, '
+        f'{quantity} [{(meant or units[1:])[0]}] (there are {", ".join(units)})'
+    )
+
+
+def _miswritten(quantity: str) -> re.Pattern[str]:
+    """What is meant for a quantity: its name in any writing, alone or with something like a unit.
+
+    That is a unit after a separator, or anything in brackets of any kind.
+    """
+    name = r'[\s_-]*'.join(quantity.split('_'))
+    units = '|'.join([*UNITS.get(quantity, ()), *_FOREIGN_UNITS.get(quantity, '').split()])
+    unit = rf'[\W_]+(?:in[\W_]+)?(?:{units})[\W_]*'
+    return re.compile(rf'{name}(?:|\W*[(\[{{<].*|\W*°.*|{unit})', re.IGNORECASE)
+
+
+_MISWRITTEN = {quantity: _miswritten(quantity) for quantity in (*UNITS, 'state')}
