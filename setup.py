@@ -22,7 +22,7 @@ setup(
     install_requires=['setuptools', 'PyYAML', 'numpy>=1.26.4'],
     extras_require={
         'calibration': ['scipy>=1.11.4'],
-        'recordings': ['mcap>=1.1', 'pyarrow>=14', 'rosbags>=0.10', 'tqdm>=4.64'],
+        'recordings': ['mcap>=1.1', 'pyarrow>=15', 'rosbags>=0.10.8', 'tqdm>=4.64'],
         'plot': ['matplotlib'],
         'test': ['hypothesis', 'mpmath', 'pytest', 'scipy>=1.11.4', 'xacro'],
     },

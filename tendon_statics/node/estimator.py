@@ -59,6 +59,12 @@ WARNING_PERIOD = 5.0
 DIAGNOSTICS_PERIOD = 1.0
 """s"""
 
+LONGEST_SLEEP = 0.25
+"""s between two looks at what is due, unless something is before"""
+
+SHORTEST_SLEEP = 1000
+"""ns; no timer is then a little early"""
+
 INPUT_DEPTH = 1000
 """Messages kept while the node is busy, so that a burst or a stall loses none."""
 
@@ -95,7 +101,8 @@ class Estimator(LifecycleNode):
         self._arrival = 0  # of the present message, in ns since 1970
         self._has_run = False
         self._has_said_stale = True
-        self._active_since = -math.inf  # steady, in s, or since the timeout was changed
+        self._watched_since = -math.inf  # steady, in s: activation or change of the timeout
+        self._next_report = math.inf  # likewise
         self._corrected = -math.inf  # when a tracked unit was last put somewhere, steady, in s
 
         self._left_out = declare_settings(self)
@@ -234,10 +241,8 @@ class Estimator(LifecycleNode):
             'throttle_duration_sec': WARNING_PERIOD,
             'throttle_time_source_type': steady,
         }
-        self._diagnostics_timer = self.create_timer(
-            DIAGNOSTICS_PERIOD, self._on_diagnostics_time, clock=steady
-        )
-        self._watchdog = self.create_timer(DIAGNOSTICS_PERIOD, self._on_watchdog, clock=steady)
+        # One for all, since each is waited for with every message; it also wakes the executor.
+        self._timer = self.create_timer(LONGEST_SLEEP, self._on_time, clock=steady)
         self._jump_handle = self.get_clock().create_jump_callback(
             JumpThreshold(
                 min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=True
@@ -274,17 +279,12 @@ class Estimator(LifecycleNode):
         self._has_run = True
         self._health.begin_period()
         self._health.stale = False
-        self._active_since = time.monotonic()
-        self._set_watchdog(self._settings.input_timeout)
-        self._diagnostics_timer.reset()
+        self._watched_since = time.monotonic()
+        self._next_report = self._watched_since + DIAGNOSTICS_PERIOD
         self._state = ACTIVE
+        self._wake_when_due()
         self.get_logger().info(f'Ready: {self._wiring.estimation} from {self._input_names()}')
         return TransitionCallbackReturn.SUCCESS
-
-    def _set_watchdog(self, delay: float) -> None:
-        """Look in so many seconds whether tensions still come."""
-        self._watchdog.timer_period_ns = int(delay * 1e9) + 1
-        self._watchdog.reset()
 
     def _let_pass_what_waits(self) -> None:
         """Take the messages that came while inactive, which are not of the present."""
@@ -356,8 +356,8 @@ class Estimator(LifecycleNode):
             return
         before, self._settings = self._settings, read_settings(self)
         if self._settings.input_timeout != before.input_timeout:
-            self._active_since = time.monotonic()
-            self._set_watchdog(self._settings.input_timeout)
+            self._watched_since = time.monotonic()
+            self._wake_when_due()
         if self._tracker is not None and self._settings.design != before.design:
             angle = self._tracker.bend_angle
             self._tracker.change_design(self._settings.design)
@@ -397,6 +397,7 @@ class Estimator(LifecycleNode):
         self._invalid_since_latest = 0
         self._has_said_stale = False
         if was_stale:
+            self._wake_when_due()
             self.get_logger().info('Valid tensions come again', **self._throttled)
         self._report_change(recovered=was_stale)
 
@@ -453,22 +454,31 @@ class Estimator(LifecycleNode):
 
     # Health
 
-    def _on_watchdog(self) -> None:
-        """Find out whether tensions still come, and look again when they next may be missed.
+    def _on_time(self) -> None:
+        """Do what is due by now, and wake again when the next is.
 
-        Putting it off with every message would wake the executor once more for each. It goes on
-        for ever, since EventsExecutor does not bear timers that are cancelled.
+        Putting the timer off with every message would wake the executor once more for each. It
+        goes on for ever, since EventsExecutor does not bear timers that are cancelled.
         """
+        now = time.monotonic()
+        if now >= self._stale_from():
+            self._on_stale_input()
+        if now >= self._next_report and self._state == ACTIVE:
+            self._next_report = now + DIAGNOSTICS_PERIOD
+            self._on_report_time()
+        self._wake_when_due()
+
+    def _stale_from(self) -> float:
+        """When the input gets stale, on the steady clock in s, if no more tensions come."""
         if self._state != ACTIVE or self._health.stale:
-            return
+            return math.inf
         newest = -math.inf if self._latest is None else self._latest[2]
-        silence = time.monotonic() - max(newest, self._active_since)
-        left = self._settings.input_timeout - silence
-        if left > 0.0:
-            self._set_watchdog(left)
-            return
-        self._set_watchdog(self._settings.input_timeout)
-        self._on_stale_input()
+        return max(newest, self._watched_since) + self._settings.input_timeout
+
+    def _wake_when_due(self) -> None:
+        delay = min(self._stale_from() - time.monotonic(), LONGEST_SLEEP)
+        self._timer.timer_period_ns = max(int(delay * 1e9), 0) + SHORTEST_SLEEP
+        self._timer.reset()
 
     def _on_stale_input(self) -> None:
         """Say once that no more tensions come; what is drawn or remembered is not vouched for."""
@@ -490,11 +500,10 @@ class Estimator(LifecycleNode):
         self._doubt()
         self._outputs.clear_drawing()
 
-    def _on_diagnostics_time(self) -> None:
-        if self._state == ACTIVE:
-            self._report()
-            self._health.begin_period()
-            self._reported_level = self._health.level
+    def _on_report_time(self) -> None:
+        self._report()
+        self._health.begin_period()
+        self._reported_level = self._health.level
 
     def _report_change(self, *, recovered: bool = False) -> None:
         """Report at once what got worse, or that tensions come again; the rest can wait.

@@ -13,9 +13,6 @@ from importlib import import_module
 from types import FrameType
 from typing import Any
 
-WAKE_PERIOD = 0.5
-"""Longest time in s that a node goes on after a signal that it slept through."""
-
 
 class StartError(Exception):
     """A node cannot start; the text is for the user."""
@@ -40,7 +37,6 @@ def _run(name: str, node_class: str, arguments: Sequence[str] | None) -> int:
         signal.signal(number, _exit_at_once)
     try:
         import rclpy
-        from rclpy.clock import Clock, ClockType
         from rclpy.exceptions import ParameterException
         from rclpy.executors import ExternalShutdownException
         from rclpy.utilities import remove_ros_args
@@ -78,9 +74,6 @@ def _run(name: str, node_class: str, arguments: Sequence[str] | None) -> int:
         except (StartError, ParameterException, RuntimeError, ValueError) as error:
             # RuntimeError and ValueError are rclpy's own, of bad overrides and names.
             return _say(name, error) if rclpy.ok() else 0
-        # rclpy wakes the executor on a signal and shuts the context down beside that. An
-        # executor that looks at the context in between waits again, and must not for ever.
-        node.create_timer(WAKE_PERIOD, _do_nothing, clock=Clock(clock_type=ClockType.STEADY_TIME))
         _spin(node)
     except ExternalShutdownException:
         pass
@@ -99,7 +92,11 @@ def _run(name: str, node_class: str, arguments: Sequence[str] | None) -> int:
 
 
 def _spin(node: Any) -> None:
-    """Spin a node in the executor that it asks for, until the context ends."""
+    """Spin a node in the executor that it asks for, until the context ends.
+
+    rclpy wakes the executor on a signal and shuts the context down beside that. An executor that
+    looks at the context in between waits again; so the node has to have a timer that never stops.
+    """
     if getattr(node, 'executor_kind', 'single') == 'single':
         from rclpy.executors import SingleThreadedExecutor
 
@@ -119,10 +116,6 @@ def _spin(node: Any) -> None:
 def _exit_at_once(_number: int, _frame: FrameType | None) -> None:
     """End while there is nothing yet to tidy up, and imports are not to be interrupted."""
     os._exit(0)
-
-
-def _do_nothing() -> None:
-    pass
 
 
 def _say(name: str, error: object) -> int:

@@ -132,6 +132,8 @@ class PulleyDriver(Node):
     # Sending
 
     def _send_due(self) -> None:
+        if self._has_ended:  # The timer goes on, for a signal to be heard.
+            return
         now = self._steady_clock.now().nanoseconds * 1e-9
         if self._begin is None:
             if self._publisher.subscription_count() < self._awaited_subscribers:
@@ -177,7 +179,6 @@ class PulleyDriver(Node):
         if self._has_ended:
             return
         self._has_ended = True
-        self._timer.cancel()
         keys = ('readings', 'messages', 'skipped', *(fault.value for fault in Fault))
         sent = json.dumps({key: self._sent[key] for key in keys})
         # Not by the node's own logger: its topic /rosout is gone after a signal.

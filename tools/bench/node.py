@@ -36,7 +36,7 @@ ANSWERS = ('bend_angle', 'joint_pressure')
 RATE = 500.0
 """Hz"""
 
-STREAMS = 7
+STREAMS = 15
 """Of `COUNT` messages each, to every program"""
 
 COUNT = 1000
@@ -52,7 +52,7 @@ SEARCHES = 3
 LOAD = 4000
 """Messages at every rate that is tried: several times what the queue of a program holds"""
 
-HALVINGS = 5
+HALVINGS = 6
 QUIET = 0.3
 """s without an answer after which none is expected any more"""
 
@@ -262,7 +262,7 @@ class Caller(Node):
 
 def highest_rate(caller: Caller, guess: float) -> float:
     """Find the highest rate in Hz at which a program loses nothing."""
-    low, high = guess / 2.0, guess * 4.0
+    low, high = guess / 2.0, guess * 8.0
     for _ in range(HALVINGS):
         rate = math.sqrt(low * high)
         if caller.loses_any(rate):

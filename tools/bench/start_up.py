@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -34,4 +35,6 @@ def rows() -> list[Row]:
 
 
 def _run(*command: str) -> None:
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, timeout=60)
+    # NumPy was compiled to bytecode when it was installed; the package is on its first run.
+    environment = {k: v for k, v in os.environ.items() if k != 'PYTHONDONTWRITEBYTECODE'}
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, timeout=60, env=environment)
