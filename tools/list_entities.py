@@ -14,10 +14,7 @@ from rclpy.node import Node
 from ros_domain import own_domain
 
 from tendon_statics.command_line.tables import markdown_table
-from tendon_statics.node.estimator import Estimator
-
-TIMERS = {'diagnostics': '1 s', 'watchdog': '`input_timeout`', 'signals': '0.5 s'}
-"""The third is that of the program, which looks whether it was told to end."""
+from tendon_statics.node.estimator import LONGEST_SLEEP, Estimator
 
 
 NodeType = TypeVar('NodeType', bound=Node)
@@ -48,8 +45,8 @@ def main() -> None:
             for kind, of_kind in entities(node).items()
             for name, interface in sorted(of_kind.items())
         ]
-        assert len(list(node.timers)) == len(TIMERS) - 1
-    rows += [('timer', name, f'{period}, steady clock') for name, period in TIMERS.items()]
+        (_,) = node.timers
+    rows.append(('timer', 'what is due', f'up to {LONGEST_SLEEP:g} s, steady clock'))
     counts = Counter(kind for kind, _, _ in rows)
     print(markdown_table(('entity', 'name', 'type'), rows))
     numbers = [f'{count} {kind}{"s" if count > 1 else ""}' for kind, count in counts.items()]
