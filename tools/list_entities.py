@@ -16,7 +16,6 @@ from ros_domain import own_domain
 from tendon_statics.command_line.tables import markdown_table
 from tendon_statics.node.estimator import LONGEST_SLEEP, Estimator
 
-
 NodeType = TypeVar('NodeType', bound=Node)
 
 
