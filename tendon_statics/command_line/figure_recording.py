@@ -55,7 +55,7 @@ def draw_replay(drawing: Figure, design: JointDesign, replayed: Replay) -> None:
     recording = replayed.recording
     times = recording.time
     label = 'time [s]'
-    if times is None:
+    if times is None or recording.disorder:
         times, label = np.arange(float(len(recording))), 'sample'
     of_tensions, of_angle, of_margin, of_regime = drawing.subplots(
         4, sharex=True, height_ratios=(3.0, 4.0, 2.5, 0.6)
