@@ -460,23 +460,27 @@ class Estimator(LifecycleNode):
         Putting the timer off with every message would wake the executor once more for each. It
         goes on for ever, since EventsExecutor does not bear timers that are cancelled.
         """
-        now = time.monotonic()
-        if now >= self._stale_from():
-            self._on_stale_input()
-        if now >= self._next_report and self._state == ACTIVE:
-            self._next_report = now + DIAGNOSTICS_PERIOD
-            self._on_report_time()
+        if self._state == ACTIVE:
+            now = time.monotonic()
+            if now >= self._stale_from():
+                self._on_stale_input()
+            if now >= self._next_report:
+                self._next_report = now + DIAGNOSTICS_PERIOD
+                self._on_report_time()
         self._wake_when_due()
 
     def _stale_from(self) -> float:
         """When the input gets stale, on the steady clock in s, if no more tensions come."""
-        if self._state != ACTIVE or self._health.stale:
+        if self._health.stale:
             return math.inf
         newest = -math.inf if self._latest is None else self._latest[2]
         return max(newest, self._watched_since) + self._settings.input_timeout
 
     def _wake_when_due(self) -> None:
-        delay = min(self._stale_from() - time.monotonic(), LONGEST_SLEEP)
+        delay = LONGEST_SLEEP
+        if self._state == ACTIVE:
+            due = min(self._stale_from(), self._next_report)
+            delay = min(due - time.monotonic(), LONGEST_SLEEP)
         self._timer.timer_period_ns = max(int(delay * 1e9), 0) + SHORTEST_SLEEP
         self._timer.reset()
 
