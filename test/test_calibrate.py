@@ -96,6 +96,23 @@ def test_what_cannot_be_told_is_not_given_a_number(tmp_path, point):
     assert answer['correlation'] == [[None] * 3] * 3
 
 
+@pytest.mark.parametrize('ending', ['csv', 'txt'])
+def test_a_design_never_takes_the_place_of_the_recording(point, ending):
+    before = point.read_text()
+    output = point.with_suffix(f'.{ending}')
+    done = run('calibrate', point, '--fit', 'mass', '--output', output)
+    assert_refused(done, 'a design is written to a file ending in .yaml')
+    assert point.read_text() == before
+
+
+def test_the_design_file_says_what_the_fit_took(tmp_path, session):
+    output = tmp_path / 'fitted.yaml'
+    run('calibrate', session, '--output', output)
+    assert '# States: those of the recording.\n' in output.read_text()
+    assert '# Not all of the data could be read: line 43' in output.read_text()
+    assert json.loads(run('calibrate', session, '--format', 'json').stdout)['damage']
+
+
 def test_a_session_has_to_say_what_slips(tmp_path):
     path = tmp_path / 'session.csv'
     samples = measured(slipping_samples(20, np.random.default_rng(2)), np.random.default_rng(2))

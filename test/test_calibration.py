@@ -224,6 +224,16 @@ def test_too_few_equations_are_said():
     assert fitted.undetermined == list(THREE)
 
 
+def test_equations_that_nothing_meets_are_said_even_if_none_is_to_spare():
+    sample = Recording([1.0], [2.0], [0.299], [900.0])
+    fitted = calibrate(PRELIMINARY, sample, ('mass', 'cable_offset'))
+    assert any('no values within their ranges' in warning for warning in fitted.warnings)
+    assert not any('nothing tests the fit' in warning for warning in fitted.warnings)
+    for parameter in fitted.parameters:
+        assert parameter.interval[0] <= parameter.value <= parameter.interval[1]
+        assert parameter.interval[1] * PRELIMINARY.gravity < 3.0  # the weight stays below T
+
+
 def test_a_value_at_the_end_of_its_range_is_said():
     samples = slipping_samples(20, np.random.default_rng(10), TRUTH)
     start = dataclasses.replace(PRELIMINARY, friction_coefficient=0.4)

@@ -35,6 +35,16 @@ def test_motion_is_not_looked_for_where_time_goes_back():
         mark_motion(recording, 0.1)
 
 
+def test_angles_that_come_less_often_than_tensions_are_compared_with_each_other():
+    """A camera of 20 Hz beside load cells of 100 Hz; then it loses the unit for a while."""
+    lost = [math.nan] * 4
+    angles = [0.0, *lost, 0.5, *lost, 0.5, *lost, 0.0]
+    times = [0.01 * index for index in range(15)] + [1.0]
+    ones = [1.0] * 16
+    found = mark_motion(Recording(ones, ones, angles, time=times), 0.1).state
+    assert found[::5] == ['slipping', 'moving', 'held', 'held']
+
+
 def test_without_an_angle_or_a_step_there_is_nothing_to_mark():
     with pytest.raises(RecordingError, match='no measured bend angle'):
         mark_motion(Recording([1.0], [1.0]), 0.1)

@@ -274,6 +274,14 @@ def test_a_recording_is_never_overwritten_by_its_own_replay(tmp_path):
     assert path.read_bytes() == before
 
 
+def test_degrees_without_their_unit_are_noticed(tmp_path):
+    path = tmp_path / 'run.csv'
+    path.write_text('tension_l,tension_s,bend_angle\n1,2,17.14\n1,2,0.1\n1,2,-12\n')
+    assert 'named bend_angle [deg]' in run('replay', path).stdout
+    path.write_text('tension_l,tension_s,bend_angle [deg]\n1,2,17.14\n1,2,0.1\n1,2,-12\n')
+    assert 'warning' not in run('replay', path).stdout
+
+
 def test_a_folder_that_is_a_recording_gets_no_further_file(tmp_path):
     write_bag(tmp_path / 'bag', [('/tensions', 0.0, bags.array(1.0, 2.0))])
     before = sorted((tmp_path / 'bag').iterdir())

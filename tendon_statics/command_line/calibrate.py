@@ -8,10 +8,13 @@ from pathlib import Path
 
 from ..design_file import save_design
 from ..output_file import OutputError
-from .calibration_options import add_calibration_options, calibration_from
+from ..recordings.recording import Recording
+from .calibration_options import add_calibration_options, calibration_from, states_text
 from .calibration_text import calibration_text
 from .options import add_design_option, add_format_option, design_from, print_json
 from .recording_options import add_recording_options, recording_from, report_damage
+
+DESIGN_ENDINGS = ('.yaml', '.yml')
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -27,16 +30,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Fit, write the design, print what is known of it."""
+    if options.output is not None and options.output.suffix not in DESIGN_ENDINGS:
+        raise OutputError(
+            f'{options.output}: a design is written to a file ending in '
+            f'{" or ".join(DESIGN_ENDINGS)}'
+        )
     recording = recording_from(options)
     calibration = calibration_from(options, design_from(options), recording)
     text = calibration_text(calibration, recording.name)
     if options.output is not None and calibration.design is not None:
-        save_design(options.output, calibration.design, _provenance(options, text))
+        provenance = _provenance(options, recording)
+        save_design(options.output, calibration.design, f'{provenance}\n\n{text}')
     if options.format == 'json':
-        print_json({'data': recording.name, **calibration.as_dict()})
+        damage = list(recording.damage)
+        print_json({'data': recording.name, 'damage': damage, **calibration.as_dict()})
     else:
         print(text)
     if options.output is not None and calibration.design is None:
+        report_damage(recording)
         raise OutputError(
             f'{options.output}: no design is written, since the data do not determine '
             f'{" and ".join(calibration.undetermined)}; leave out of --fit what you know otherwise'
@@ -44,11 +55,15 @@ def run(options: argparse.Namespace) -> int:
     return report_damage(recording)
 
 
-def _provenance(options: argparse.Namespace, text: str) -> str:
+def _provenance(options: argparse.Namespace, recording: Recording) -> str:
     from importlib.metadata import version
 
     start = Path(options.design).name if options.design else 'the preliminary design'
-    return (
+    lines = [
         f'Fitted on {date.today().isoformat()} by tendon_statics {version("tendon_statics")}, '
-        f'starting from {start}.\n\n{text}'
-    )
+        f'starting from {start}.',
+        f'States: {states_text(options)}.',
+    ]
+    if recording.damage:
+        lines.append(f'Not all of the data could be read: {recording.damage_summary}')
+    return '\n'.join(lines)

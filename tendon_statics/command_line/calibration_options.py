@@ -61,6 +61,13 @@ def states_from(options: argparse.Namespace, recording: Recording) -> Recording:
     return recording
 
 
+def states_text(options: argparse.Namespace) -> str:
+    """Say where the states come from."""
+    if options.motion_step_deg is not None:
+        return f'motions of the angle by more than {options.motion_step_deg:g} deg'
+    return 'all slipping, as was said' if options.all_slipping else 'those of the recording'
+
+
 def calibration_from(
     options: argparse.Namespace, design: JointDesign, recording: Recording
 ) -> Calibration:

@@ -56,8 +56,7 @@ def calibration_facts(calibration: Calibration, name: str) -> Facts:
         ('not used', ', '.join(f'{why}: {count}' for why, count in counts.items()) or 'none'),
         (
             'noise',
-            f'{noise.tension:g} N, {math.degrees(noise.bend_angle):.3g} deg{of_pressure}, '
-            'as stated',
+            f'{noise.tension:g} N, {math.degrees(noise.bend_angle):.3g} deg{of_pressure}',
         ),
         (
             'distances',

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from importlib import import_module
 from typing import NoReturn
 
@@ -70,8 +72,8 @@ class _Version(argparse.Action):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run ``tendon-statics``; return the exit code.
 
-    It is 0; 1 if a recording could not be read as a whole, with what was missing on stderr; or 2
-    with one line on stderr.
+    It is 0; 1 if a recording could not be read as a whole, with what was missing on stderr; 2 with
+    one line on stderr; or 128 more than the number of the signal that interrupted it.
     """
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     parser = _Parser(
@@ -86,6 +88,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             module = import_module(f'{__package__}.{verb}')
             module.add_arguments(subparser)
             subparser.set_defaults(run=module.run)
+    with suppress(ValueError):  # It is not for other threads than the main one.
+        # So that a file that is being written is taken away.
+        signal.signal(signal.SIGTERM, _interrupt)
     try:
         chosen = parser.parse_args(arguments)
         code: int | None = chosen.run(chosen)
@@ -94,12 +99,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # The reader of our output has gone, as `head` does; that is no error of ours.
         _drop_output()
         return 0
+    except KeyboardInterrupt as interruption:
+        return 128 + (interruption.args or (signal.SIGINT,))[0]
     except ERRORS as error:
         print(f'tendon-statics: {error}', file=sys.stderr)
         if isinstance(error, OSError):
             _drop_output()
         return 2
     return code or 0
+
+
+def _interrupt(number: int, _frame: object) -> NoReturn:
+    raise KeyboardInterrupt(number)
 
 
 def _drop_output() -> None:

@@ -80,8 +80,10 @@ def replay_from(options: argparse.Namespace, design: JointDesign, recording: Rec
 
 
 def _is_within(path: Path, recording: Path) -> bool:
-    """Whether a file is the recording, or in the folder that is."""
-    return path.resolve().is_relative_to(recording.resolve())
+    """Whether a file is the recording, or would become part of the bag that is or holds it."""
+    path, recording = path.resolve(), recording.resolve()
+    into_its_bag = path.parent == recording.parent and (path.parent / 'metadata.yaml').exists()
+    return path.is_relative_to(recording) or (into_its_bag and path.suffix == '.mcap')
 
 
 def _writer(path: Path | None) -> _Writer | None:

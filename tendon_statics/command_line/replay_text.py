@@ -75,6 +75,15 @@ def _angle_facts(replay: Replay) -> Facts:
             f'against the measured angle, in {len(error)} samples',
         )
     )
+    middle = float(np.nanmedian(abs(replay.recording.bend_angle)))
+    if middle > 0.5 * math.pi:
+        facts.append(
+            (
+                'warning',
+                f'half of the measured angles are above {middle:.3g} rad, and no unit bends so '
+                'far; if they are degrees, the column has to be named bend_angle [deg]',
+            )
+        )
     return facts
 
 

@@ -97,12 +97,13 @@ def calibrate(
 
 def _checked_fit(fit: Sequence[str]) -> list[DesignParameter]:
     known = {parameter.name: parameter for parameter in design_parameters()}
+    fit = [fit] if isinstance(fit, str) else list(fit)
     for name in fit:
         if name not in known:
             raise CalibrationError(
                 f'fit is {name!r}, which is no design parameter; there are {", ".join(known)}'
             )
-        if list(fit).count(name) > 1:
+        if fit.count(name) > 1:
             raise CalibrationError(f'fit names {name} twice')
     if not fit:
         raise CalibrationError('fit names no parameter')
@@ -313,18 +314,18 @@ class _Problem:
         errors = identification.standard_errors * self._unit
         half_widths = errors / self._noise_scale * _interval_factor(residuals)
         design = self._design_at(self._scaled)
+        ends = zip(*(bound * self._unit for bound in self._bounds), strict=True)
         fitted = []
-        for parameter, error, half in zip(self._parameters, errors, half_widths, strict=True):
+        for parameter, error, half, (low, high) in zip(
+            self._parameters, errors, half_widths, ends, strict=True
+        ):
             start = getattr(self._design, parameter.name)
             if math.isnan(error):
                 fitted.append(FittedParameter(parameter.name, start, None, None, None))
                 continue
             value = getattr(design, parameter.name)
-            ends = (
-                max(value - float(half), parameter.minimum),
-                min(value + float(half), parameter.maximum),
-            )
-            fitted.append(FittedParameter(parameter.name, start, value, float(error), ends))
+            interval = max(value - float(half), float(low)), min(value + float(half), float(high))
+            fitted.append(FittedParameter(parameter.name, start, value, float(error), interval))
         return tuple(fitted)
 
     def _statistics(self) -> ResidualStatistics:

@@ -77,7 +77,10 @@ class SortedSamples:
 
     def __init__(self, design: JointDesign, data: Samples, noise: Noise) -> None:
         if data.bend_angle is None:
-            raise CalibrationError('there is no measured bend angle in the data')
+            raise CalibrationError(
+                'there is no measured bend angle in the data: neither a column bend_angle nor, '
+                'in a bag, the topic /measured_bend_angle or another named by --bend-angle-topic'
+            )
         if data.state is None and data.time is not None:
             raise CalibrationError(
                 'the samples follow each other in time, but have no state that says which of them '

@@ -12,6 +12,8 @@ from .design import DesignParameter
 from .identification import Identification
 
 STRONG_CORRELATION = 0.99
+NEGLIGIBLE_DISTANCE = 0.01
+"""Standard deviations; an equation that is met has less"""
 SIGNIFICANT = 3.0
 """Standard deviations beyond which a scatter is not by chance"""
 
@@ -40,10 +42,16 @@ def calibration_warnings(
             f'{equations} equations cannot determine {len(fitted)} parameters: '
             'record more slips, or fit fewer parameters'
         )
-    elif residuals.degrees_of_freedom == 0:
+    elif residuals.degrees_of_freedom == 0 and residuals.largest < NEGLIGIBLE_DISTANCE:
         found.append(
             'there are as many equations as parameters, so that they are met whatever the data '
             'are: nothing tests the fit'
+        )
+    elif residuals.degrees_of_freedom == 0:
+        found.append(
+            'there are as many equations as parameters, and no values within their ranges and the '
+            f'holds meet them: the distance is up to {residuals.largest:.2g} standard deviations, '
+            'so the model does not fit, or a state is wrong'
         )
     for direction in identification.null_directions:
         found.append(_unidentified([value.name for value in fitted], direction))
@@ -105,7 +113,7 @@ def _doubts(
     error = fitted.standard_error
     if error > 0.5 * abs(fitted.value):
         found.append(
-            f'{parameter.name} is hardly identifiable: its standard error is '
-            f'{100.0 * error / max(abs(fitted.value), 1e-300):.3g} % of its value'
+            f'{parameter.name} is hardly identifiable: its standard error is {error:.2g} '
+            f'{parameter.unit}, more than half of its value'
         )
     return found

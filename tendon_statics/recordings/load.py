@@ -45,22 +45,24 @@ def load_recording(
     """
     path = Path(path)
     try:
-        if path.is_dir() or path.suffix in ('.mcap', '.db3'):
-            from .bag import load_bag
-
-            return load_bag(path, topics or BagTopics(), progress)
-        if path.suffix == '.parquet':
-            from .parquet_file import load_parquet
-
-            return load_parquet(path, progress)
-        if path.suffix == '.csv':
-            from .csv_file import load_csv
-
-            return load_csv(path, progress)
+        return _loaded(path, topics or BagTopics(), progress)
     except RecordingError as error:
         raise RecordingError(f'{path}: {one_line(error)}') from None
     except OSError as error:
         raise RecordingError(f'{path}: it cannot be read: {error.strerror or error}') from None
-    raise RecordingError(
-        f'{path}: a recording ends in {", ".join(ENDINGS)}, or is the folder of a bag'
-    )
+
+
+def _loaded(path: Path, topics: BagTopics, progress: Progress) -> Recording:
+    if path.is_dir() or path.suffix in ('.mcap', '.db3'):
+        from .bag import load_bag
+
+        return load_bag(path, topics, progress)
+    if path.suffix == '.parquet':
+        from .parquet_file import load_parquet
+
+        return load_parquet(path, progress)
+    if path.suffix == '.csv':
+        from .csv_file import load_csv
+
+        return load_csv(path, progress)
+    raise RecordingError(f'a recording ends in {", ".join(ENDINGS)}, or is the folder of a bag')

@@ -9,14 +9,19 @@ import numpy as np
 from .errors import RecordingError
 from .recording import Recording
 
+LONGEST_GAP = 0.2
+"""s between two angles; a camera of 5 Hz has as much"""
+
 
 def mark_motion(recording: Recording, step: float) -> Recording:
     """Return a recording with a state for each sample, from the steps of its angle.
 
-    A change of more than `step` between two samples is motion. The sample before a motion is
+    A change of more than `step` between two angles is motion. The sample before a motion is
     ``slipping``: the unit is still where it was held, with the last tensions before it moved. So
     it is on the boundary of slip but for one step of the tensions, whatever the motion after it
-    looks like. Samples in motion have the state ``moving``, all others are ``held``.
+    looks like. Samples in motion have the state ``moving``, all others are ``held``. Samples
+    without an angle are passed over, as long as the angles before and after them are no more than
+    `LONGEST_GAP` apart; beyond that nothing is known of how the unit came to move.
 
     Parameters
     ----------
@@ -29,12 +34,21 @@ def mark_motion(recording: Recording, step: float) -> Recording:
         If there is no angle, time goes back, or the step is not above 0.
     """
     if recording.bend_angle is None:
-        raise RecordingError('there is no measured bend angle in the data')
+        raise RecordingError(
+            f'{recording.name}: there is no measured bend angle in it: neither '
+            'a column bend_angle nor, in a bag, the topic /measured_bend_angle or another that is '
+            'named (--bend-angle-topic)'
+        )
     if not step > 0.0:
         raise RecordingError(f'the step of a motion is {step!r} rad, which must be above 0')
     recording.in_order()
-    moves = np.zeros(len(recording) + 1, dtype=bool)
-    moves[1:-1] = abs(np.diff(recording.bend_angle)) > step
+    known = np.flatnonzero(~np.isnan(recording.bend_angle))
+    near = np.diff(known) == 1
+    if recording.time is not None:
+        near |= np.diff(recording.time[known]) <= LONGEST_GAP
+    moves = np.zeros(len(known) + 1, dtype=bool)
+    moves[1:-1] = near & (abs(np.diff(recording.bend_angle[known])) > step)
     before, after = moves[:-1], moves[1:]
-    state = np.select([before, after], ['moving', 'slipping'], 'held')
+    state = np.full(len(recording), 'held', dtype='<U8')
+    state[known] = np.select([before, after], ['moving', 'slipping'], 'held')
     return dataclasses.replace(recording, state=state.tolist())
