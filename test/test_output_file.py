@@ -1,10 +1,14 @@
 """`output_file`: an output appears whole or not at all."""
 
 import os
+import signal
 import stat
+import subprocess
 from pathlib import Path
 
 import pytest
+from programs import PROGRAM
+from ros_programs import wait_for
 
 from tendon_statics.output_file import OutputError, output_file
 
@@ -54,3 +58,15 @@ def test_a_link_stays_a_link(tmp_path):
 def test_what_cannot_be_written_is_named(path):
     with pytest.raises(OutputError, match=f'^{path}: it cannot be written'):
         write(Path(path))
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_leaves_nothing_half_written_and_no_traceback(tmp_path, number):
+    command = [*PROGRAM, 'sweep', '--points', '1500', '--output', str(tmp_path / 'map.csv')]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+        wait_for('the file to be begun', lambda: list(tmp_path.iterdir()))
+        process.send_signal(number)
+        _, errors = process.communicate(timeout=60)
+    assert process.returncode == 128 + number
+    assert errors == ''
+    assert list(tmp_path.iterdir()) == []

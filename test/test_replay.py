@@ -283,11 +283,12 @@ def test_degrees_without_their_unit_are_noticed(tmp_path):
 
 
 def test_a_folder_that_is_a_recording_gets_no_further_file(tmp_path):
-    write_bag(tmp_path / 'bag', [('/tensions', 0.0, bags.array(1.0, 2.0))])
+    file = write_bag(tmp_path / 'bag', [('/tensions', 0.0, bags.array(1.0, 2.0))])
     before = sorted((tmp_path / 'bag').iterdir())
     for name in ('bag.mcap', 'out.mcap'):
         output = tmp_path / 'bag' / name
-        assert_refused(run('replay', tmp_path / 'bag', '--output', output), 'or lies in it')
+        for data in (tmp_path / 'bag', file):
+            assert_refused(run('replay', data, '--output', output), 'or lies in it')
     assert sorted((tmp_path / 'bag').iterdir()) == before
 
 

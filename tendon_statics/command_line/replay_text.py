@@ -62,7 +62,8 @@ def _angle_facts(replay: Replay) -> Facts:
                 f'{unsure} of these angles: a cable had been slack, so the unit may have moved',
             )
         )
-    if replay.error is None:
+    measured = replay.recording.bend_angle
+    if replay.error is None or measured is None:
         return facts
     error = abs(replay.error[np.isfinite(replay.error)])
     if not len(error):
@@ -75,7 +76,7 @@ def _angle_facts(replay: Replay) -> Facts:
             f'against the measured angle, in {len(error)} samples',
         )
     )
-    middle = float(np.nanmedian(abs(replay.recording.bend_angle)))
+    middle = float(np.nanmedian(abs(measured)))
     if middle > 0.5 * math.pi:
         facts.append(
             (
