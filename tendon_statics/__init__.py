@@ -18,6 +18,7 @@ from .recordings.errors import RecordingError
 if TYPE_CHECKING:
     from .physics import Calibration, EquilibriumBatch, calibrate, solve_batch
     from .recordings.load import load_recording
+    from .recordings.motion import mark_motion
     from .recordings.recording import Recording
 
 __all__ = [
@@ -35,6 +36,7 @@ __all__ = [
     'default_design_path',
     'load_design',
     'load_recording',
+    'mark_motion',
     'save_design',
     'solve',
     'solve_batch',
@@ -48,6 +50,10 @@ def __getattr__(name: str) -> Any:
         from .recordings.load import load_recording
 
         return load_recording
+    if name == 'mark_motion':
+        from .recordings.motion import mark_motion
+
+        return mark_motion
     if name == 'Recording':
         from .recordings.recording import Recording
 

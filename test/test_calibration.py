@@ -234,6 +234,14 @@ def test_equations_that_nothing_meets_are_said_even_if_none_is_to_spare():
         assert parameter.interval[1] * PRELIMINARY.gravity < 3.0  # the weight stays below T
 
 
+def test_data_that_no_design_comes_near_are_refused():
+    rng = np.random.default_rng(17)
+    samples = measured(slipping_samples(20, rng), rng)
+    samples[:, :2] *= 1000.0  # mN taken for N
+    with pytest.raises(CalibrationError, match='wrong units, signs or states'):
+        calibrate(PRELIMINARY, recording(samples))
+
+
 def test_a_value_at_the_end_of_its_range_is_said():
     samples = slipping_samples(20, np.random.default_rng(10), TRUTH)
     start = dataclasses.replace(PRELIMINARY, friction_coefficient=0.4)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Sequence
 from datetime import date
 from html import escape
@@ -83,11 +84,13 @@ def run(options: argparse.Namespace) -> int:
     parts = []
     if recording.damage:
         parts.append(_warning(f'Not all of it could be read: {recording.damage_summary}'))
+    note = ''
     try:
         calibration = calibration_from(options, start, recording)
     except (CalibrationError, RecordingError) as error:
         design, of = start, _start_name(options)
         fitted = ['<h2>Calibration</h2>', _warning(f'Nothing could be fitted: {error}')]
+        note = f'tendon-statics: {path} has no calibration: {error}'
     else:
         design, of = calibration.design or start, 'the fitted design'
         if calibration.design is None:
@@ -113,6 +116,8 @@ def run(options: argparse.Namespace) -> int:
     )
     with output_file(path) as temporary:
         temporary.write_text(page, encoding='utf-8')
+    if note:
+        print(note, file=sys.stderr)
     return report_damage(recording)
 
 

@@ -47,7 +47,9 @@ CATCH_UP_TIME = 0.1
 RATE = NumberParameter(
     'rate', 10.0, 0.01, 20000.0, 'Hz', 'readings per second, of real time also with use_sim_time'
 )
-COUNT = NumberParameter('count', 0, 0, 10**15, '', 'readings after which it ends; 0: endless')
+COUNT = NumberParameter(
+    'count', 0, 0, 10**15, '', 'readings after which it sends no more; 0: endless'
+)
 AWAITED_SUBSCRIBERS = NumberParameter(
     'awaited_subscribers',
     0,
@@ -67,7 +69,7 @@ class PulleyDriver(Node):
             self,
             'file',
             '',
-            'CSV file of tensions in N to play; empty: the installed demo_tensions.csv',
+            'recording of tensions to play, CSV, Parquet or a bag; empty: demo_tensions.csv',
         )
         self._loop = declare_fixed(self, 'loop', True, 'whether to begin anew after the last row')
         self._publisher = self._make_publisher()

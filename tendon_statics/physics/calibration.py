@@ -39,6 +39,9 @@ LARGEST_DISTANCE = 1e100
 MOST_DESIGNS = 2000
 """Tried in one search, after which it must have ended"""
 
+LARGEST_SCALE = 100.0
+"""Of the noise as it is to that which is stated, beyond which something else is wrong"""
+
 MOST_ROUNDS = 30
 """Fits after which it must have"""
 
@@ -168,6 +171,11 @@ class _Problem:
         for _ in range(MOST_ROUNDS):
             self._search()
             before, self._noise_scale = self._noise_scale, max(1.0, self._told_scale())
+            if self._noise_scale > LARGEST_SCALE:
+                raise CalibrationError(
+                    f'no design comes near the data: they scatter {self._noise_scale:.2g} times as '
+                    'much as the stated noise explains; look for wrong units, signs or states'
+                )
             if abs(self._noise_scale - before) <= SCALE_TOLERANCE * before:
                 return self
         raise CalibrationError(
@@ -200,7 +208,8 @@ class _Problem:
         if not found.success:
             raise CalibrationError(
                 f'the search for the best design has not ended after {found.nfev} designs: '
-                'start nearer, with another --design, or fit fewer parameters'
+                'look for wrong units, signs or states, start nearer, with another --design, or '
+                'fit fewer parameters'
             )
         self._scaled = found.x
 

@@ -107,8 +107,11 @@ class SortedSamples:
         self.counts = self._counts()
         if not self.slipping.any():
             unused = ', '.join(f'{n} {name}' for name, n in self.counts.items() if n)
+            hint = ''
+            if self.counts.get('beyond the stop'):
+                hint = '; angles without a unit are in rad'
             raise CalibrationError(
-                f'none of {count} samples is known to be slipping and can be used ({unused})'
+                f'none of {count} samples is known to be slipping and can be used ({unused}){hint}'
             )
 
     def _roles(self, design: JointDesign, state: NDArray[np.object_]) -> NDArray[np.str_]:

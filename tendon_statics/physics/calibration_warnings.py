@@ -73,8 +73,8 @@ def calibration_warnings(
         )
         found.append(
             f'the distances scatter {residuals.scale:.2g} times as much as the stated noise '
-            f'explains: the noise is larger, {states}, or the model does not fit; the errors are '
-            'for the larger noise'
+            f'explains: the noise is larger, {states}, a sign or a value that is not fitted is '
+            'wrong, or the model does not fit; the errors are for the larger noise'
         )
     if residuals.hold_violations:
         found.append(

@@ -39,7 +39,11 @@ def find_columns(titles: Sequence[str]) -> dict[str, Column]:
     for name in REQUIRED:
         if name not in found:
             there = ', '.join(filter(None, titles)) or 'none'
+            hint = ''
+            if any(separator in there for separator in ';\t'):
+                hint = '; a comma has to stand between two columns, and a point in numbers'
             raise RecordingError(
                 f'there is no column {name}; {", ".join(REQUIRED)} are needed, there are: {there}'
+                f'{hint}'
             )
     return found
