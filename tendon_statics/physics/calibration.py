@@ -173,8 +173,9 @@ class _Problem:
             before, self._noise_scale = self._noise_scale, max(1.0, self._told_scale())
             if self._noise_scale > LARGEST_SCALE:
                 raise CalibrationError(
-                    f'no design comes near the data: they scatter {self._noise_scale:.2g} times as '
-                    'much as the stated noise explains; look for wrong units, signs or states'
+                    'no design comes near the data: they scatter '
+                    f'{self._noise_scale:.2g} times as much as the stated noise explains; '
+                    'look for wrong units, signs or states'
                 )
             if abs(self._noise_scale - before) <= SCALE_TOLERANCE * before:
                 return self
