@@ -63,7 +63,13 @@ def test_what_cannot_be_written_is_named(path):
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_leaves_nothing_half_written_and_no_traceback(tmp_path, number):
     command = [*PROGRAM, 'sweep', '--points', '1500', '--output', str(tmp_path / 'map.csv')]
-    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(
+        command,
+        stderr=subprocess.PIPE,
+        text=True,
+        # A shell's background jobs, and what they start, are deaf to SIGINT.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    ) as process:
         wait_for('the file to be begun', lambda: list(tmp_path.iterdir()))
         process.send_signal(number)
         _, errors = process.communicate(timeout=60)

@@ -191,7 +191,7 @@ class Estimator(LifecycleNode):
             callback,
             QoSProfile(depth=INPUT_DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
-            # As of the outputs; a publisher that does not fit is told in /diagnostics.
+            # As of the outputs; of publishers that all do not fit /diagnostics tells.
             event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
         )
 
@@ -380,6 +380,7 @@ class Estimator(LifecycleNode):
             return
         if self._health.stale and not self._is_corrected():
             self._doubt()
+        lag = max(0.0, 1e-9 * (time.time_ns() - self._arrival))
         begin = time.monotonic()
         try:
             result = self._result(self._tracker, tension_l, tension_s)
@@ -390,7 +391,6 @@ class Estimator(LifecycleNode):
         self._outputs.publish(result, settings, lambda: reading.stamp or self._time_of_arrival())
         was_stale = self._health.stale
         self._health.note_result(result, solved - begin)
-        lag = max(0.0, 1e-9 * (time.time_ns() - self._arrival))
         self._health.note_lag(lag, settings.input_timeout)
         self._source.tighten()
         self._latest = (tension_l, tension_s, solved)

@@ -182,7 +182,11 @@ class Outputs:
                 message = make(finding)
                 if message is not None:
                     publisher.publish(message)
-        if self._markers is not None and time.monotonic() >= self._next_drawing:
+        if (
+            self._markers is not None
+            and self._markers.handle.get_subscription_count() > 0
+            and time.monotonic() >= self._next_drawing
+        ):
             self._next_drawing = time.monotonic() + MARKER_PERIOD
             self._markers.publish(
                 unit_markers(settings.design, result, finding.admissible_angles, finding.header)

@@ -122,12 +122,16 @@ class Equilibrium(NamedTuple):
         angle_gradient, pressure_gradient = self._gradients
         fields = self._asdict()
         del fields['design']
-        fields['forces'] = forces
-        fields['force_remainder'] = remainder
+        fields['regime'] = self.regime.value
+        fields['forces'] = None if forces is None else forces._asdict()
+        fields['force_remainder'] = None if remainder is None else remainder._asdict()
         fields['branch_consistent'] = consistent
-        fields['bend_angle_gradient'] = angle_gradient
-        fields['pressure_gradient'] = pressure_gradient
-        return plain(fields)
+        for name, gradient in (
+            ('bend_angle_gradient', angle_gradient),
+            ('pressure_gradient', pressure_gradient),
+        ):
+            fields[name] = None if gradient is None else gradient._asdict()
+        return fields
 
     @property
     def _side(self) -> float:

@@ -23,30 +23,30 @@ def contact_coefficients(design: JointDesign, theta: float):
     return pressure, friction
 
 
-def force_pressure(theta: float, design: JointDesign, tension_l: float, tension_s: float):
-    """Right-hand side of Eq. (4), in Pa."""
+def both_sides(theta: float, design: JointDesign, tension_l: float, tension_s: float):
+    """Left and right-hand side of Eq. (4), in Pa."""
     c_pressure, c_friction = contact_coefficients(design, theta)
+    pressure_norm, friction_norm = np.linalg.norm(c_pressure), np.linalg.norm(c_friction)
     mu, total, weight = design.friction_coefficient, tension_l + tension_s, design.weight
-    linear = total * np.linalg.norm(c_pressure) - weight * mu * c_friction[1]
-    square = mu**2 * np.linalg.norm(c_friction) ** 2 - np.linalg.norm(c_pressure) ** 2
+    moment = (tension_s - tension_l) * (design.ball_radius + design.cable_offset)
+    moment = moment + weight * design.com_distance * np.sin(theta)
+    linear = total * pressure_norm - weight * mu * c_friction[1]
+    square = mu**2 * friction_norm**2 - pressure_norm**2
     root = np.sqrt(linear**2 - square * (weight**2 - total**2))
-    return -(linear - root) / square
+    return moment / (mu * design.ball_radius * friction_norm), -(linear - root) / square
 
 
 def residual(theta: float, design: JointDesign, tension_l: float, tension_s: float):
     """Left minus right-hand side of Eq. (4), in Pa."""
-    _, c_friction = contact_coefficients(design, theta)
-    moment = (tension_s - tension_l) * (design.ball_radius + design.cable_offset)
-    moment = moment + design.weight * design.com_distance * np.sin(theta)
-    arm = design.friction_coefficient * design.ball_radius * np.linalg.norm(c_friction)
-    return moment / arm - force_pressure(theta, design, tension_l, tension_s)
+    left, right = both_sides(theta, design, tension_l, tension_s)
+    return left - right
 
 
 def solve(design: JointDesign, tension_l: float, tension_s: float):
     """Return angle, pressure and the four forces of a case that has a root."""
     given = (design, tension_l, tension_s)
     theta = bisect(residual, 0.0, design.max_bend_angle, args=given, xtol=1e-10)
-    pressure = force_pressure(theta, *given)
+    _, pressure = both_sides(theta, *given)
     c_pressure, c_friction = contact_coefficients(design, theta)
     return (
         theta,
