@@ -47,10 +47,11 @@ def run(options: argparse.Namespace) -> int:
     else:
         print(text)
     if options.output is not None and calibration.design is None:
-        report_damage(recording)
+        unread = f'; not all could be read: {recording.damage_summary}' if recording.damage else ''
         raise OutputError(
             f'{options.output}: no design is written, since the data do not determine '
             f'{" and ".join(calibration.undetermined)}; leave out of --fit what you know otherwise'
+            f'{unread}'
         )
     return report_damage(recording)
 
