@@ -110,15 +110,12 @@ def split_contact(
     """
     sin_phi, cos_phi = phi
     sin_theta, cos_theta = theta
-    forces = ContactForces(
-        pressure_x=normal_force * sin_phi,
-        pressure_z=normal_force * cos_phi,
-        friction_x=friction_force * cos_phi,
-        friction_z=friction_force * sin_phi,
-    )
+    friction_x, friction_z = friction_force * cos_phi, friction_force * sin_phi
     lift = normal_force - total_tension
-    remainder = ForceRemainder(
-        x=lift * sin_theta - forces.friction_x,
-        z=lift * cos_theta + forces.friction_z - design.weight,
+    return Contact(
+        ContactForces(normal_force * sin_phi, normal_force * cos_phi, friction_x, friction_z),
+        ForceRemainder(
+            lift * sin_theta - friction_x, lift * cos_theta + friction_z - design.weight
+        ),
+        friction_z > design.weight,
     )
-    return Contact(forces, remainder, forces.friction_z > design.weight)

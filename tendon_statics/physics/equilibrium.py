@@ -31,17 +31,6 @@ class Regime(str, Enum):
         return self.value
 
 
-def plain(fields: dict[str, Any]) -> dict[str, Any]:
-    """Return fields ready for JSON: nested as dicts, enums as values."""
-    return {name: _plain(value) for name, value in fields.items()}
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Enum):
-        return value.value
-    return value._asdict() if hasattr(value, '_asdict') else value
-
-
 class Equilibrium(NamedTuple):
     """The answer of `solve`. What the model does not determine is None, never a number.
 
@@ -118,19 +107,38 @@ class Equilibrium(NamedTuple):
 
     def as_dict(self) -> dict[str, Any]:
         """Return all but the design by name, ready for JSON: nested as dicts."""
-        forces, remainder, consistent = self._contact or (None, None, None)
-        angle_gradient, pressure_gradient = self._gradients
-        fields = self._asdict()
-        del fields['design']
-        fields['regime'] = self.regime.value
-        fields['forces'] = None if forces is None else forces._asdict()
-        fields['force_remainder'] = None if remainder is None else remainder._asdict()
-        fields['branch_consistent'] = consistent
-        for name, gradient in (
-            ('bend_angle_gradient', angle_gradient),
-            ('pressure_gradient', pressure_gradient),
-        ):
-            fields[name] = None if gradient is None else gradient._asdict()
+        # Spelt out, since that takes a third of the time of `_asdict`, nested four times.
+        fields: dict[str, Any] = {
+            'regime': self.regime.value,
+            'tension_l': self.tension_l,
+            'tension_s': self.tension_s,
+            'root_count': self.root_count,
+            'iterations': self.iterations,
+            'bend_angle': self.bend_angle,
+            'pressure': self.pressure,
+            'normal_force': self.normal_force,
+            'stable': self.stable,
+            'residual': self.residual,
+            'forces': None,
+            'force_remainder': None,
+            'branch_consistent': None,
+            'bend_angle_gradient': None,
+            'pressure_gradient': None,
+        }
+        if (contact := self._contact) is not None:
+            forces, remainder, fields['branch_consistent'] = contact
+            fields['forces'] = {
+                'pressure_x': forces.pressure_x,
+                'pressure_z': forces.pressure_z,
+                'friction_x': forces.friction_x,
+                'friction_z': forces.friction_z,
+            }
+            fields['force_remainder'] = {'x': remainder.x, 'z': remainder.z}
+        of_angle, of_pressure = self._gradients
+        if of_angle is not None:
+            fields['bend_angle_gradient'] = _by_tension(of_angle)
+        if of_pressure is not None:
+            fields['pressure_gradient'] = _by_tension(of_pressure)
         return fields
 
     @property
@@ -158,3 +166,7 @@ class Equilibrium(NamedTuple):
             self._side,
             at_stop=self.regime is Regime.DRIVEN_TO_STOP,
         )
+
+
+def _by_tension(gradient: TensionGradient) -> dict[str, float]:
+    return {'tension_l': gradient.tension_l, 'tension_s': gradient.tension_s}

@@ -46,7 +46,11 @@ class SlipEquation(NormalForces):
 
     def slope_at(self, point: Point) -> float:
         """∂g/∂θ in N/rad; not finite where R = 0."""
-        return self.geometry.weight_gain * math.cos(point[0]) - self.force_slope_at(point)
+        return self.moment_slope_at(point) - self.force_slope_at(point)
+
+    def moment_slope_at(self, point: Point) -> float:
+        """∂N_m/∂θ = W l cos θ / (μ r) in N/rad."""
+        return self.geometry.weight_gain * math.cos(point[0])
 
     def force_slope_at(self, point: Point) -> float:
         """∂N_f/∂θ = μ W cos φ N_f / R in N/rad; not finite where R = 0."""
@@ -158,13 +162,11 @@ class SlipEquation(NormalForces):
             return False
         at_left = self.friction_weight * left_force / left_root
         at_right = self.friction_weight * right_force / right_root
-        products = (
-            at_left * left_direction,
-            at_left * right_direction,
-            at_right * left_direction,
-            at_right * right_direction,
-        )
-        return max(products) < self.gain or min(products) > self.gain
+        flat, steep = (at_left, at_right) if at_left < at_right else (at_right, at_left)
+        # cos φ / cos θ falls with θ, so the largest product is with the one at the left.
+        most = left_direction * (steep if left_direction > 0.0 else flat)
+        least = right_direction * (flat if right_direction > 0.0 else steep)
+        return most < self.gain or least > self.gain
 
 
 _Interval = tuple[Point, Point]

@@ -58,19 +58,27 @@ def gradients_at_limit(
     behind, ahead = (tension_l, tension_s) if side > 0.0 else (tension_s, tension_l)
     equation = SlipEquation(design, behind, ahead)
     point = equation.point(side * bend_angle)
-    slope = math.inf if at_stop else equation.slope_at(point)
+    by_angle = equation.force_slope_at(point)
+    slope = math.inf if at_stop else equation.moment_slope_at(point) - by_angle
     _, _, force, root, _ = point
     if slope == 0.0 or root == 0.0:
         return None, None
-    far, near = derivatives(
-        design, by_total=(1.0 - force) / root, by_angle=equation.force_slope_at(point), slope=slope
+    behind_it, ahead_of_it = derivatives(design, (1.0 - force) / root, by_angle, slope)
+    (angle_by_l, pressure_by_l), (angle_by_s, pressure_by_s) = (
+        (behind_it, ahead_of_it) if side > 0.0 else (ahead_of_it, behind_it)
     )
-    by_l, by_s = (far, near) if side > 0.0 else (near, far)
-    angle_gradient = TensionGradient(side * by_l[0], side * by_s[0])
-    pressure_gradient = TensionGradient(by_l[1], by_s[1])
-    if not all(map(math.isfinite, (*angle_gradient, *pressure_gradient))):
+    finite = math.isfinite
+    if not (
+        finite(angle_by_l)
+        and finite(angle_by_s)
+        and finite(pressure_by_l)
+        and finite(pressure_by_s)
+    ):
         return None, None
-    return angle_gradient, pressure_gradient
+    return (
+        TensionGradient(side * angle_by_l, side * angle_by_s),
+        TensionGradient(pressure_by_l, pressure_by_s),
+    )
 
 
 def derivatives(

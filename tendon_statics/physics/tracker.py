@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from enum import Enum
 from typing import Any, NamedTuple
 
 from .admissible import admissible_angles, check_bend_angle, margin_at
 from .contact import ContactForces, ForceRemainder, contact_at
 from .design import JointDesign
 from .equations import normal_force_ratios
-from .equilibrium import Regime, plain
+from .equilibrium import Regime
 from .sensitivity import TensionGradient, gradients_at_limit, stddev_of
 from .solver import check_tensions
 
@@ -65,7 +66,13 @@ class TrackedState(NamedTuple):
 
     def as_dict(self) -> dict[str, Any]:
         """Return the fields by name, ready for JSON: nested as dicts, undetermined as None."""
-        return plain(self._asdict())
+        return {name: _plain(value) for name, value in self._asdict().items()}
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Enum):
+        return value.value
+    return value._asdict() if hasattr(value, '_asdict') else value
 
 
 class StickSlipTracker:
