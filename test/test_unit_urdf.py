@@ -11,10 +11,11 @@ import xacro
 import yaml
 from ament_index_python.packages import get_package_share_directory
 from designs import PRELIMINARY, random_design
+from geometry_msgs.msg import PoseWithCovarianceStamped
 from scipy.spatial.transform import Rotation
 from std_msgs.msg import Header
 
-from tendon_statics.node.messages import unit_pose
+from tendon_statics.node.messages import fill_unit_pose
 
 URDF = Path(get_package_share_directory('tendon_statics'), 'urdf')
 
@@ -56,7 +57,9 @@ def test_the_centre_of_gravity_is_where_the_estimator_says(design, tmp_path):
     robot = description(design_file=str(design_file(tmp_path, design)))
     for bend_angle in np.linspace(-design.max_bend_angle, design.max_bend_angle, 7):
         position, turned = centre_of_gravity(robot, bend_angle)
-        pose = unit_pose(design, bend_angle, 0.0, Header()).pose.pose
+        pose = fill_unit_pose(
+            PoseWithCovarianceStamped(), design, bend_angle, 0.0, Header()
+        ).pose.pose
         expected = (pose.position.x, pose.position.y, pose.position.z)
         assert position == pytest.approx(expected, abs=1e-15)
         o = pose.orientation

@@ -7,12 +7,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
-from std_msgs.msg import Float64MultiArray, Header, MultiArrayDimension, MultiArrayLayout
+from std_msgs.msg import Float64MultiArray, Header, MultiArrayDimension
 
 from ..physics import (
     BendAngleError,
     Equilibrium,
     JointDesign,
+    TensionGradient,
     TrackedState,
     UnreachableError,
     tensions_for,
@@ -23,15 +24,15 @@ __all__ = [
     'Estimate',
     'Solve',
     'SolveInverse',
-    'estimate',
+    'fill_estimate',
+    'fill_intervals',
     'fill_inverse_response',
     'fill_solve_response',
-    'intervals_array',
+    'fill_unit_pose',
     'refuse',
     'refuse_inverse',
     'refuse_solve',
     'type_name',
-    'unit_pose',
 ]
 
 # The node works without the package nested in interfaces/, but offers less.
@@ -45,37 +46,46 @@ else:
     INTERFACES_MISSING = ''
 
 
+_UNKNOWN_GRADIENT = TensionGradient(math.nan, math.nan)
+
+
 def type_name(message_type: type) -> str:
     """Return a type as ROS writes it, say ``std_msgs/msg/String``."""
     package, kind, *_ = message_type.__module__.split('.')
     return f'{package}/{kind}/{message_type.__name__}'
 
 
-def intervals_array(intervals: Sequence[tuple[float, float]]) -> Float64MultiArray:
-    """Pairs of ends, row by row, with a layout that says so."""
-    count = len(intervals)
-    return Float64MultiArray(
-        layout=MultiArrayLayout(
-            dim=[
-                MultiArrayDimension(label='interval', size=count, stride=2 * count),
-                MultiArrayDimension(label='end', size=2, stride=2),
-            ]
-        ),
-        data=[end for interval in intervals for end in interval],
-    )
+def fill_intervals(
+    message: Float64MultiArray, intervals: Sequence[tuple[float, float]]
+) -> Float64MultiArray:
+    """Put pairs of ends into a message, row by row, with a layout that says so."""
+    if not message.layout.dim:
+        message.layout.dim = [
+            MultiArrayDimension(label='interval'),
+            MultiArrayDimension(label='end', size=2, stride=2),
+        ]
+    rows = message.layout.dim[0]
+    rows.size = len(intervals)
+    rows.stride = 2 * len(intervals)
+    message.data = [end for interval in intervals for end in interval]
+    return message
 
 
-def unit_pose(
-    design: JointDesign, bend_angle: float, bend_angle_stddev: float, header: Header
+def fill_unit_pose(
+    message: PoseWithCovarianceStamped,
+    design: JointDesign,
+    bend_angle: float,
+    bend_angle_stddev: float,
+    header: Header,
 ) -> PoseWithCovarianceStamped:
-    """Pose of the unit's centre of gravity in the joint frame.
+    """Put the pose of the unit's centre of gravity in the joint frame into a message.
 
     The joint frame has its origin in the joint's centre, Z along the unit at zero bend and X
     towards cable s. The covariance follows from the angle's alone: position l (sin θ, 0, cos θ)
     and rotation about Y move together, and what leaves the plane of bending has none.
     """
     sine, cosine = math.sin(bend_angle), math.cos(bend_angle)
-    message = PoseWithCovarianceStamped(header=header)
+    message.header = header
     pose = message.pose.pose
     pose.position.x = design.com_distance * sine
     pose.position.z = design.com_distance * cosine
@@ -88,43 +98,33 @@ def unit_pose(
     return message
 
 
-def estimate(
+def fill_estimate(
+    message: Estimate,
     result: Equilibrium | TrackedState,
     margin: float | None,
     intervals: Sequence[tuple[float, float]],
     tension_stddev: float,
     header: Header,
 ) -> Estimate:
-    """Everything that is known from one pair of tensions; NaN or False where it is not."""
+    """Put all that is known from one pair of tensions into a message.
+
+    It is NaN, False or 0 where it is not known, whatever was in the message before.
+    """
     forces = result.forces or (math.nan,) * 4
     remainder = result.force_remainder or (math.nan,) * 2
-    angle_gradient = result.bend_angle_gradient or (math.nan,) * 2
-    pressure_gradient = result.pressure_gradient or (math.nan,) * 2
-    message = Estimate(
-        header=header,
-        regime=result.regime.value,
-        tension_l=result.tension_l,
-        tension_s=result.tension_s,
-        bend_angle=_number(result.bend_angle),
-        bend_angle_stddev=_number(result.bend_angle_stddev(tension_stddev)),
-        pressure=_number(result.pressure),
-        pressure_stddev=_number(result.pressure_stddev(tension_stddev)),
-        normal_force=_number(result.normal_force),
-        slip_margin=_number(margin),
-        admissible_angles=[end for interval in intervals for end in interval],
-        residual=math.nan,
-        branch_consistent=bool(result.branch_consistent),
-        pressure_force_x=forces[0],
-        pressure_force_z=forces[1],
-        friction_force_x=forces[2],
-        friction_force_z=forces[3],
-        force_remainder_x=remainder[0],
-        force_remainder_z=remainder[1],
-        bend_angle_by_tension_l=angle_gradient[0],
-        bend_angle_by_tension_s=angle_gradient[1],
-        pressure_by_tension_l=pressure_gradient[0],
-        pressure_by_tension_s=pressure_gradient[1],
-    )
+    angle_gradient = result.bend_angle_gradient or _UNKNOWN_GRADIENT
+    pressure_gradient = result.pressure_gradient or _UNKNOWN_GRADIENT
+    message.header = header
+    message.regime = result.regime.value
+    message.tension_l = result.tension_l
+    message.tension_s = result.tension_s
+    message.bend_angle = _number(result.bend_angle)
+    message.bend_angle_stddev = angle_gradient.stddev(tension_stddev)
+    message.pressure = _number(result.pressure)
+    message.pressure_stddev = pressure_gradient.stddev(tension_stddev)
+    message.normal_force = _number(result.normal_force)
+    message.slip_margin = _number(margin)
+    message.admissible_angles = [end for interval in intervals for end in interval]
     if isinstance(result, Equilibrium):
         message.angle_assured = result.bend_angle is not None
         message.root_count = result.root_count
@@ -133,6 +133,15 @@ def estimate(
         message.residual = _number(result.residual)
     else:
         message.angle_assured = result.angle_assured
+        message.root_count = message.iterations = 0
+        message.stable = False
+        message.residual = math.nan
+    message.branch_consistent = bool(result.branch_consistent)
+    message.pressure_force_x, message.pressure_force_z = forces[:2]
+    message.friction_force_x, message.friction_force_z = forces[2:]
+    message.force_remainder_x, message.force_remainder_z = remainder
+    message.bend_angle_by_tension_l, message.bend_angle_by_tension_s = angle_gradient
+    message.pressure_by_tension_l, message.pressure_by_tension_s = pressure_gradient
     return message
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -45,24 +45,20 @@ class Finding:
         self,
         result: Equilibrium | TrackedState,
         settings: Settings,
-        wiring: Wiring,
+        header: Header,
         stamp: Callable[[], Time],
     ) -> None:
         self.result = result
         self.design = settings.design
         self.tension_stddev = settings.tension_stddev
-        self._wiring = wiring
+        self._header = header
         self._stamp = stamp
-
-    @property
-    def joint_name(self) -> str:
-        """Name of the joint."""
-        return self._wiring.joint_name
 
     @cached_property
     def header(self) -> Header:
-        """Header of all messages that have one."""
-        return Header(stamp=self._stamp(), frame_id=self._wiring.frame_id)
+        """Header of all messages that have one, stamped when it is first asked for."""
+        self._header.stamp = self._stamp()
+        return self._header
 
     @cached_property
     def slip_margin(self) -> float | None:
@@ -81,57 +77,77 @@ class Finding:
         return admissible_angles(self.design, result.tension_l, result.tension_s)
 
 
-# One function for each topic, which returns its message, or None where nothing is determined.
+# One function for each topic. It fills the message, or returns False where nothing is determined.
 
 
-def _regime(finding: Finding) -> String:
-    return String(data=finding.result.regime.value)
+def _fill_regime(message: String, finding: Finding) -> bool:
+    message.data = finding.result.regime.value
+    return True
 
 
-def _bend_angle(finding: Finding) -> Float64 | None:
-    angle = finding.result.bend_angle
-    return None if angle is None else Float64(data=angle)
+def _fill_bend_angle(message: Float64, finding: Finding) -> bool:
+    return _fill_number(message, finding.result.bend_angle)
 
 
-def _joint_pressure(finding: Finding) -> Float64 | None:
-    pressure = finding.result.pressure
-    return None if pressure is None else Float64(data=pressure)
+def _fill_joint_pressure(message: Float64, finding: Finding) -> bool:
+    return _fill_number(message, finding.result.pressure)
 
 
-def _slip_margin(finding: Finding) -> Float64 | None:
-    margin = finding.slip_margin
-    return None if margin is None else Float64(data=margin)
+def _fill_slip_margin(message: Float64, finding: Finding) -> bool:
+    return _fill_number(message, finding.slip_margin)
 
 
-def _joint_state(finding: Finding) -> JointState | None:
+def _fill_number(message: Float64, number: float | None) -> bool:
+    if number is None:
+        return False
+    message.data = number
+    return True
+
+
+def _fill_joint_state(message: JointState, finding: Finding) -> bool:
     angle = finding.result.bend_angle
     if angle is None:
-        return None
-    return JointState(header=finding.header, name=[finding.joint_name], position=[angle])
+        return False
+    message.header = finding.header
+    message.position = [angle]
+    return True
 
 
-def _unit_pose(finding: Finding) -> PoseWithCovarianceStamped | None:
+def _fill_unit_pose(message: PoseWithCovarianceStamped, finding: Finding) -> bool:
     angle = finding.result.bend_angle
     stddev = finding.result.bend_angle_stddev(finding.tension_stddev)
     if angle is None or stddev is None:
-        return None
-    return messages.unit_pose(finding.design, angle, stddev, finding.header)
+        return False
+    messages.fill_unit_pose(message, finding.design, angle, stddev, finding.header)
+    return True
 
 
-def _admissible_angles(finding: Finding) -> Float64MultiArray | None:
+def _fill_admissible_angles(message: Float64MultiArray, finding: Finding) -> bool:
     if finding.result.regime is Regime.SLACK:
-        return None
-    return messages.intervals_array(finding.admissible_angles)
+        return False
+    messages.fill_intervals(message, finding.admissible_angles)
+    return True
 
 
-def _estimate(finding: Finding) -> messages.Estimate:
-    return messages.estimate(
+def _fill_estimate(message: messages.Estimate, finding: Finding) -> bool:
+    messages.fill_estimate(
+        message,
         finding.result,
         finding.slip_margin,
         finding.admissible_angles,
         finding.tension_stddev,
         finding.header,
     )
+    return True
+
+
+class Output(NamedTuple):
+    """A topic on which findings are published."""
+
+    publisher: Publisher
+    message: Any
+    """Filled anew each time: rclpy has made a copy of it for the middleware when it returns"""
+    fill: Callable[[Any, Finding], bool]
 
 
 class Outputs:
@@ -140,22 +156,28 @@ class Outputs:
     def __init__(self, node: Node, wiring: Wiring) -> None:
         self._node = node
         self._wiring = wiring
-        self._regime = self._publisher(String, '~/regime')
-        self._of_findings: list[tuple[Publisher, Callable[[Finding], Any]]] = [
-            (self._regime, _regime),
-            (self._publisher(Float64, '~/bend_angle'), _bend_angle),
-            (self._publisher(Float64, '~/joint_pressure'), _joint_pressure),
-            (self._publisher(Float64, '~/slip_margin'), _slip_margin),
-            (self._publisher(JointState, '~/joint_state'), _joint_state),
-            (self._publisher(PoseWithCovarianceStamped, '~/unit_pose'), _unit_pose),
-            (self._publisher(Float64MultiArray, '~/admissible_angles'), _admissible_angles),
+        self._header = Header(frame_id=wiring.frame_id)
+        joint_state = JointState(name=[wiring.joint_name])
+        self._of_findings = [
+            self._output('~/regime', String(), _fill_regime),
+            self._output('~/bend_angle', Float64(), _fill_bend_angle),
+            self._output('~/joint_pressure', Float64(), _fill_joint_pressure),
+            self._output('~/slip_margin', Float64(), _fill_slip_margin),
+            self._output('~/joint_state', joint_state, _fill_joint_state),
+            self._output('~/unit_pose', PoseWithCovarianceStamped(), _fill_unit_pose),
+            self._output('~/admissible_angles', Float64MultiArray(), _fill_admissible_angles),
         ]
         if not messages.INTERFACES_MISSING:
-            estimate = self._publisher(messages.Estimate, '~/estimate')
-            self._of_findings.append((estimate, _estimate))
+            self._of_findings.append(
+                self._output('~/estimate', messages.Estimate(), _fill_estimate)
+            )
+        self._regime = self._of_findings[0].publisher
         self._markers = self._publisher(MarkerArray, '~/markers') if wiring.markers else None
         self._next_drawing = 0.0
         self._diagnostics = self._publisher(DiagnosticArray, '/diagnostics')
+
+    def _output(self, topic: str, message: Any, fill: Callable[[Any, Finding], bool]) -> Output:
+        return Output(self._publisher(type(message), topic), message, fill)
 
     def _publisher(self, message_type: type, topic: str) -> Publisher:
         return self._node.create_publisher(
@@ -175,13 +197,11 @@ class Outputs:
         stamp: Callable[[], Time],
     ) -> None:
         """Publish all of a result that is determined and that somebody listens to."""
-        finding = Finding(result, settings, self._wiring, stamp)
-        for publisher, make in self._of_findings:
+        finding = Finding(result, settings, self._header, stamp)
+        for publisher, message, fill in self._of_findings:
             # Of the handle itself, for a fifth of the time, since all are asked each time.
-            if publisher.handle.get_subscription_count() > 0:
-                message = make(finding)
-                if message is not None:
-                    publisher.publish(message)
+            if publisher.handle.get_subscription_count() > 0 and fill(message, finding):
+                publisher.publish(message)
         if (
             self._markers is not None
             and self._markers.handle.get_subscription_count() > 0
