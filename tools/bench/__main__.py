@@ -52,8 +52,8 @@ def main() -> int:
                     row.work,
                     row.against,
                     f'{row.ratio:.3g}',
-                    row.target,
-                    'yes' if row.reached else 'no',
+                    row.target or '–',
+                    {True: 'yes', False: 'no', None: '–'}[row.reached],
                 )
                 for row in rows
             ],

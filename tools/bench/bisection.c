@@ -1,8 +1,10 @@
-/* The yardstick of the bench: what `solve` does, by the same bisection, in C.
+/* The yardstick of the bench: what `solve` finds, by bisection, in C.
  *
  * One function for one pair of tensions, one that loops over many. The equations are those of
  * docs/model.md, N_f in the form that is usual for N_f = (T² − W²) / (B + R); what depends on the
  * design alone is worked out once, and nothing is checked that a caller could not get wrong.
+ *
+ * What is halved is g itself, or with -DHALVED=quartic the quartic that has its sign, as in `solve`.
  */
 #include <math.h>
 #include <stddef.h>
@@ -10,6 +12,11 @@
 #define TOLERANCE 1e-10
 #define NARROW 1e-8
 #define KNOTS 6
+#ifndef HALVED
+#define HALVED equation
+#endif
+#define JOINED(a, b) a##b
+#define HALVE(of) JOINED(halve_, of)
 
 enum { EQUILIBRIUM, HELD, SLIPPING, DRIVEN_TO_STOP, SLACK, INVALID = -1 };
 
@@ -100,6 +107,46 @@ static void search(const Design *d, const Pair *p, Point left, Point right, int 
     search(d, p, middle, right, count, bracket);
 }
 
+/* Halve a bracket of g; return how often. */
+static inline int halve_equation(const Design *d, const Pair *p, double *low, double *high)
+{
+    int iterations = 0, rising = g(d, p, *low) < 0.0;
+    while (*high - *low > TOLERANCE) {
+        double middle = 0.5 * (*low + *high);
+        if ((g(d, p, middle) < 0.0) == rising)
+            *low = middle;
+        else
+            *high = middle;
+        iterations++;
+    }
+    return iterations;
+}
+
+/* The same in tan(θ/2), with the quartic. */
+static inline int halve_quartic(const Design *d, const Pair *p, double *low, double *high)
+{
+    double square = (d->friction - 1.0) * (d->friction + 1.0), twice = 2.0 * p->gain;
+    double standing = 2.0 * d->friction * p->weight * d->sine;
+    double middle = 2.0 + square * p->offset, h0 = middle - standing, h2 = middle + standing;
+    double h1 = square * twice - 4.0 * d->friction * p->weight * d->cosine;
+    double c0 = p->product - p->offset * h0, c1 = -p->offset * h1 - twice * h0;
+    double c2 = 2.0 * (p->product - p->offset * middle) - twice * h1;
+    double c3 = -p->offset * h1 - twice * h2, c4 = p->product - p->offset * h2;
+    double left = tan(0.5 * *low), right = tan(0.5 * *high);
+    int positive = (((c4 * left + c3) * left + c2) * left + c1) * left + c0 >= 0.0, iterations;
+    frexp(2.0 * (right - left) / TOLERANCE, &iterations);
+    for (int i = 0; i < iterations; i++) {
+        double t = 0.5 * (left + right);
+        if (((((c4 * t + c3) * t + c2) * t + c1) * t + c0 > 0.0) == positive)
+            left = t;
+        else
+            right = t;
+    }
+    *low = fmax(*low, 2.0 * atan(left));
+    *high = fmin(*high, 2.0 * atan(right));
+    return iterations > 0 ? iterations : 0;
+}
+
 /* Angle, pressure and what comes with them; returns the pair for `complete`. */
 static inline Pair solve(const Design *d, double tension_l, double tension_s, Answer *a)
 {
@@ -130,15 +177,7 @@ static inline Pair solve(const Design *d, double tension_l, double tension_s, An
     }
     if (count) {
         double low = bracket[0], high = bracket[1];
-        int rising = g(d, &p, low) < 0.0;
-        while (high - low > TOLERANCE) {
-            double middle = 0.5 * (low + high);
-            if ((g(d, &p, middle) < 0.0) == rising)
-                low = middle;
-            else
-                high = middle;
-            a->iterations++;
-        }
+        a->iterations = HALVE(HALVED)(d, &p, &low, &high);
         double at_low = g(d, &p, low), at_high = g(d, &p, high);
         answer = at(d, &p, high - at_high * (high - low) / (at_high - at_low));
         a->regime = EQUILIBRIUM;

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Row:
-    """A ratio and what it is to reach."""
+    """A ratio and what it is to reach; None for one that is only to be known."""
 
     work: str
     against: str
     ratio: float
-    target: str
-    reached: bool
+    target: str | None = None
+    reached: bool | None = None
 
 
 def at_least(work: str, against: str, ratio: float, target: float) -> Row:

@@ -37,4 +37,5 @@ def rows() -> list[Row]:
 def _run(*command: str) -> None:
     # NumPy was compiled to bytecode when it was installed; the package is on its first run.
     environment = {k: v for k, v in os.environ.items() if k != 'PYTHONDONTWRITEBYTECODE'}
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, timeout=60, env=environment)
+    # With a timeout the end would be looked for at intervals of up to 50 ms.
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, env=environment)

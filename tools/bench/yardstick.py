@@ -22,20 +22,28 @@ Floats = NDArray[np.float64]
 class Yardstick:
     """``bisection.c`` for one design.
 
+    Parameters
+    ----------
+    halved : str
+        What is bisected: ``equation`` or ``quartic``.
+
     Raises
     ------
     RuntimeError
         If there is no C compiler, or it fails.
     """
 
-    def __init__(self, design: JointDesign) -> None:
+    def __init__(self, design: JointDesign, halved: str = 'equation') -> None:
         compiler = shutil.which('cc')
         if compiler is None:
             raise RuntimeError('there is no C compiler: install one that is called cc')
         with tempfile.TemporaryDirectory() as folder:
             library = Path(folder) / 'bisection.so'
             done = subprocess.run(
-                [compiler, '-O3', '-shared', '-fPIC', '-o', library, SOURCE, '-lm'],
+                [
+                    *(compiler, '-O3', '-shared', '-fPIC', f'-DHALVED={halved}'),
+                    *('-o', library, SOURCE, '-lm'),
+                ],
                 capture_output=True,
                 text=True,
                 check=False,
