@@ -262,6 +262,19 @@ def test_a_driver_whose_quality_of_service_does_not_fit_is_named(listener):
             assert 'reliab' in status.message.lower()
 
 
+def test_one_of_two_drivers_that_does_not_fit_is_named_though_tensions_come(listener):
+    reliable = ('-p', 'qos_overrides./tensions.subscription.reliability:=reliable')
+    with spinning(lambda context: Node('driver', context=context)) as driver:
+        heard = driver.create_publisher(Float64MultiArray, 'tensions', 10)
+        best_effort = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+        driver.create_publisher(Float64MultiArray, 'tensions', best_effort)
+        with Program.running('estimator', '--ros-args', '-p', 'input_timeout:=60.0', *reliable):
+            wait_for('the driver to be heard', lambda: heard.get_subscription_count() > 0)
+            heard.publish(Float64MultiArray(data=[1.0, 2.0]))
+            wait_for('the answer', lambda: listener.regimes)
+            listener.wait_for_status(WARN, 'a quality of service that does not fit')
+
+
 def test_the_name_tells_estimators_apart(listener):
     arguments = ('-r', '__ns:=/left/wrist')
     with Program.running('estimator', '--ros-args', *arguments):

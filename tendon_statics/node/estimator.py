@@ -191,7 +191,7 @@ class Estimator(LifecycleNode):
             callback,
             QoSProfile(depth=INPUT_DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
-            # As of the outputs; of publishers that all do not fit /diagnostics tells.
+            # As of the outputs; of a publisher that does not fit /diagnostics tells.
             event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
         )
 
@@ -528,7 +528,8 @@ class Estimator(LifecycleNode):
             f'{name}: estimation',
             self._wiring.joint_name,
             self._publisher_counts,
-            note=note or (self._misfit() if self._health.stale else ''),
+            self._misfit(),
+            note,
         )
         left_out = ', '.join(sorted(self._left_out))
         status.values.append(

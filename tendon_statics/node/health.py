@@ -116,7 +116,12 @@ class Health:
         self._forget_period()
 
     def status(
-        self, name: str, hardware_id: str, publishers: dict[str, int], note: str = ''
+        self,
+        name: str,
+        hardware_id: str,
+        publishers: dict[str, int],
+        misfit: str = '',
+        note: str = '',
     ) -> DiagnosticStatus:
         """Say how the estimator is.
 
@@ -124,6 +129,8 @@ class Health:
         ----------
         publishers : dict
             Topic that tensions come on → number of its publishers.
+        misfit : str
+            Which publishers are not heard, and why.
         note : str
             In place of what there is to say, if there is one.
         """
@@ -136,6 +143,9 @@ class Health:
             if count > 1:
                 findings.append(f'{count} publishers on {topic}, one is expected')
                 level = max(level, Level.WARN)
+        if misfit:
+            findings.append(misfit)
+            level = max(level, Level.WARN)
         if not findings:
             findings = [self._regime or 'no tensions came yet']
         values = {
