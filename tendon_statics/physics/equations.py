@@ -25,6 +25,16 @@ Point = tuple[float, float, float, float, float]
 """An angle θ, and there N_m / T, N_f / T, R / T and cos φ / cos θ"""
 
 
+def weight_excess(design: JointDesign, tension_l: float, tension_s: float) -> float:
+    """T_l + T_s − W in N, without loss of digits where the tensions hardly exceed the weight."""
+    weight = design.weight
+    excess = tension_l + tension_s - weight
+    if excess > 0.01 * weight:
+        return excess
+    exact_weight = Fraction(design.mass) * Fraction(design.gravity)
+    return float(Fraction(tension_l) + Fraction(tension_s) - exact_weight)
+
+
 class NormalForces:
     """N_m, N_f and R of one design and one pair of tensions, as shares of the total tension T.
 
@@ -57,6 +67,8 @@ class NormalForces:
         'weight',
     )
 
+    _weight_excess = staticmethod(weight_excess)
+
     def __init__(self, design: JointDesign, tension_l: float, tension_s: float) -> None:
         geometry = design.slip_geometry
         total = tension_l + tension_s
@@ -68,10 +80,6 @@ class NormalForces:
         self.friction_weight = geometry.friction * weight
         self.excess = excess = self._weight_excess(design, tension_l, tension_s) / total
         self.product = excess * (1.0 + weight)
-
-    @staticmethod
-    def _weight_excess(design: JointDesign, tension_l: float, tension_s: float) -> float:
-        return weight_excess(design, tension_l, tension_s)
 
     def point(self, bend_angle: float) -> Point:
         """Return the three at an angle in rad."""
@@ -123,16 +131,6 @@ def normal_force_ratios(
     """
     forces = NormalForces(design, tension_l, tension_s)
     return lambda bend_angle: forces.point(bend_angle)[1:4]
-
-
-def weight_excess(design: JointDesign, tension_l: float, tension_s: float) -> float:
-    """T_l + T_s − W in N, without loss of digits where the tensions hardly exceed the weight."""
-    weight = design.weight
-    excess = tension_l + tension_s - weight
-    if excess > 0.01 * weight:
-        return excess
-    exact_weight = Fraction(design.mass) * Fraction(design.gravity)
-    return float(Fraction(tension_l) + Fraction(tension_s) - exact_weight)
 
 
 def residual(design: JointDesign, tension_l: float, tension_s: float, bend_angle: float) -> float:

@@ -42,21 +42,18 @@ class SlipEquation(NormalForces):
 
     def slope(self, bend_angle: float) -> float:
         """∂g/∂θ in N/rad; not finite at the kink that N_f has where R = 0."""
-        return self.slope_at(self.point(bend_angle))
+        of_moment, of_force = self.slopes_at(self.point(bend_angle))
+        return of_moment - of_force
 
-    def slope_at(self, point: Point) -> float:
-        """∂g/∂θ in N/rad; not finite where R = 0."""
-        return self.moment_slope_at(point) - self.force_slope_at(point)
+    def slopes_at(self, point: Point) -> tuple[float, float]:
+        """∂N_m/∂θ = W l cos θ / (μ r) and ∂N_f/∂θ = μ W cos φ N_f / R in N/rad.
 
-    def moment_slope_at(self, point: Point) -> float:
-        """∂N_m/∂θ = W l cos θ / (μ r) in N/rad."""
-        return self.geometry.weight_gain * math.cos(point[0])
-
-    def force_slope_at(self, point: Point) -> float:
-        """∂N_f/∂θ = μ W cos φ N_f / R in N/rad; not finite where R = 0."""
+        The latter is not finite where R = 0.
+        """
         angle, _, force, root, direction = point
+        cosine = math.cos(angle)
         by_sine = self.friction_weight * force / root if root > 0.0 else math.inf
-        return self.total * by_sine * math.cos(angle) * direction
+        return self.geometry.weight_gain * cosine, self.total * by_sine * cosine * direction
 
     def brackets(self, low: float, high: float) -> list[tuple[float, float]]:
         """Ascending, disjoint intervals in [low, high] that hold one root each and all together.

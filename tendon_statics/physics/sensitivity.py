@@ -58,12 +58,12 @@ def gradients_at_limit(
     behind, ahead = (tension_l, tension_s) if side > 0.0 else (tension_s, tension_l)
     equation = SlipEquation(design, behind, ahead)
     point = equation.point(side * bend_angle)
-    by_angle = equation.force_slope_at(point)
-    slope = math.inf if at_stop else equation.moment_slope_at(point) - by_angle
+    of_moment, of_force = equation.slopes_at(point)
+    slope = math.inf if at_stop else of_moment - of_force
     _, _, force, root, _ = point
     if slope == 0.0 or root == 0.0:
         return None, None
-    behind_it, ahead_of_it = derivatives(design, (1.0 - force) / root, by_angle, slope)
+    behind_it, ahead_of_it = derivatives(design, (1.0 - force) / root, of_force, slope)
     (angle_by_l, pressure_by_l), (angle_by_s, pressure_by_s) = (
         (behind_it, ahead_of_it) if side > 0.0 else (ahead_of_it, behind_it)
     )

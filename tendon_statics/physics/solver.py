@@ -44,7 +44,8 @@ def solve(design: JointDesign, tension_l: float, tension_s: float) -> Equilibriu
     if brackets:
         bend_angle, iterations = equation.bisect(*brackets[0])
         point = equation.point(bend_angle)
-        regime, stable = Regime.EQUILIBRIUM, equation.slope_at(point) < 0.0
+        of_moment, of_force = equation.slopes_at(point)
+        regime, stable = Regime.EQUILIBRIUM, of_moment < of_force
     elif equation.residual(0.0) > 0.0:
         bend_angle, iterations = design.max_bend_angle, 0
         point = equation.point(bend_angle)
@@ -76,8 +77,14 @@ def check_tensions(design: JointDesign, tension_l: float, tension_s: float) -> t
     TensionError
         As `solve` does.
     """
-    tension_l = _checked('tension_l', tension_l)
-    tension_s = _checked('tension_s', tension_s)
+    if type(tension_l) is not float:
+        tension_l = _as_float('tension_l', tension_l)
+    if type(tension_s) is not float:
+        tension_s = _as_float('tension_s', tension_s)
+    if not 0.0 <= tension_l <= MAX_TENSION:
+        raise _out_of_range('tension_l', tension_l)
+    if not 0.0 <= tension_s <= MAX_TENSION:
+        raise _out_of_range('tension_s', tension_s)
     taut = tension_l > 0.0 and tension_s > 0.0
     if taut and not weight_excess(design, tension_l, tension_s) > 0.0:
         raise TensionError(
@@ -88,14 +95,14 @@ def check_tensions(design: JointDesign, tension_l: float, tension_s: float) -> t
     return tension_l, tension_s
 
 
-def _checked(name: str, value: float) -> float:
-    if type(value) is not float:
-        if isinstance(value, bool) or not isinstance(value, numbers.Real):
-            raise TensionError(f'{name} is {value!r}, which is not a number; it is taken in N')
-        try:
-            value = float(value)
-        except OverflowError:
-            value = math.inf
-    if not 0.0 <= value <= MAX_TENSION:
-        raise TensionError(f'{name} is {value!r} N, allowed is 0 to {MAX_TENSION:g} N')
-    return value
+def _out_of_range(name: str, value: float) -> TensionError:
+    return TensionError(f'{name} is {value!r} N, allowed is 0 to {MAX_TENSION:g} N')
+
+
+def _as_float(name: str, value: object) -> float:
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise TensionError(f'{name} is {value!r}, which is not a number; it is taken in N')
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
