@@ -16,11 +16,17 @@ from pathlib import Path
 
 from tendon_statics.command_line.tables import markdown_table
 
-from . import batch, node, solver, start_up
+from . import batch, messages, node, solver, start_up
 from .rows import Row
 
-GROUPS = (solver, batch, start_up, node)
+GROUPS = (solver, batch, start_up, messages, node)
 """Each has a function `rows` that measures a group of rows"""
+
+SHARES = {
+    'where `solve(...).as_dict()` spends its time': solver.shares,
+    'where the node spends a message': node.shares,
+}
+"""What is split up → what measures the share of each part"""
 
 
 def main() -> int:
@@ -38,12 +44,13 @@ def main() -> int:
         except Exception:
             traceback.print_exc()
             failed.append(name)
-    shares: dict[str, float] = {}
-    try:
-        shares = node.shares()
-    except Exception:
-        traceback.print_exc()
-        failed.append('shares')
+    shares: dict[str, dict[str, float]] = {}
+    for whole, measure in SHARES.items():
+        try:
+            shares[whole] = measure()
+        except Exception:
+            traceback.print_exc()
+            failed.append(whole)
     print(
         markdown_table(
             ('work', 'against', 'ratio:', 'to reach', 'reached'),
@@ -59,19 +66,18 @@ def main() -> int:
             ],
         )
     )
-    print()
-    print(
-        markdown_table(
-            ('where the node spends a message', 'share of CPU [%]:'),
-            [(part, f'{100.0 * share:.0f}') for part, share in shares.items()],
+    for whole, parts in shares.items():
+        print()
+        print(
+            markdown_table(
+                (whole, 'share [%]:'),
+                [(part, f'{100.0 * share:.0f}') for part, share in parts.items()],
+            )
         )
-    )
     machine = {'cores': os.cpu_count(), 'python': platform.python_version()}
     options.json.parent.mkdir(parents=True, exist_ok=True)
     options.json.write_text(
-        json.dumps(
-            {**machine, 'rows': [asdict(row) for row in rows], 'node_shares': shares}, indent=2
-        )
+        json.dumps({**machine, 'rows': [asdict(row) for row in rows], 'shares': shares}, indent=2)
         + '\n',
         encoding='utf-8',
     )

@@ -6,6 +6,8 @@ import numpy as np
 
 from tendon_statics import default_design_path, load_design, solve
 from tendon_statics.physics import paper
+from tendon_statics.physics.roots import SlipEquation
+from tendon_statics.physics.solver import check_tensions
 
 from . import numpy_port
 from .rows import Row, at_least, at_most
@@ -20,6 +22,35 @@ def rows() -> list[Row]:
     """Measure."""
     design = load_design(default_design_path())
     return [_all_fields(design), *_angle_and_pressure(design)]
+
+
+def shares() -> dict[str, float]:
+    """Measure what part of `solve(...).as_dict()` goes where, in order of the work."""
+    design = load_design(default_design_path())
+    case = (design, paper.TENSION_L, paper.TENSION_S)
+    equation = SlipEquation(*case)
+    search = (0.0, design.max_bend_angle)
+    (bracket,) = equation.brackets(*search)
+    checking, coefficients, counting, bisection, solving, everything = best_times(
+        [
+            lambda: [check_tensions(*case) for _ in range(20)],
+            lambda: [SlipEquation(*case) for _ in range(20)],
+            lambda: [equation.brackets(*search) for _ in range(20)],
+            lambda: [equation.bisect(*bracket) for _ in range(20)],
+            lambda: [solve(*case) for _ in range(20)],
+            lambda: [solve(*case).as_dict() for _ in range(20)],
+        ],
+        rounds=400,
+    )
+    parts = {
+        'checking the tensions': checking,
+        'coefficients of one pair': coefficients,
+        'showing that there is one root': counting,
+        'bisection': bisection,
+        'the rest of `solve`': solving - checking - coefficients - counting - bisection,
+        'fields on demand, and the dict': everything - solving,
+    }
+    return {part: seconds / everything for part, seconds in parts.items()}
 
 
 def _all_fields(design) -> Row:
