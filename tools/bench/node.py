@@ -57,7 +57,10 @@ LOAD = 4000
 
 HALVINGS = 6
 QUIET = 0.3
-"""s without an answer after which none is expected any more"""
+"""s without an answer after which none is expected any more of messages that came too fast"""
+
+PATIENCE = 2.0
+"""The same of messages that did not: one that waits so long is lost"""
 
 KEPT = 1.1
 """Times as long as it should that sending may take"""
@@ -274,8 +277,8 @@ class Caller(Node):
     def _take_what_comes(self, count: int) -> None:
         """Take answers until all or none comes any more."""
         came, heard = 0, time.perf_counter()
-        while came < count * len(ANSWERS) and time.perf_counter() < heard + QUIET:
-            self._executor.spin_once(timeout_sec=QUIET)
+        while came < count * len(ANSWERS) and time.perf_counter() < heard + PATIENCE:
+            self._executor.spin_once(timeout_sec=PATIENCE)
             before, came = came, sum(map(len, self._came))
             if came > before:
                 heard = time.perf_counter()
