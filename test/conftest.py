@@ -14,6 +14,13 @@ settings.load_profile('ci' if os.environ.get('CI') else 'local')
 os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
 
 
+def pytest_collection_modifyitems(items):
+    """Mark the tests of the node: those that run a program, or listen to one."""
+    for item in items:
+        if 'Program' in vars(item.module) or 'listener' in item.fixturenames:
+            item.add_marker(pytest.mark.node)
+
+
 @pytest.fixture(scope='session', autouse=True)
 def ros_domain():
     """Take a ROS domain that no other run on this machine has, and hold it to the end."""

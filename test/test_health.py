@@ -8,7 +8,8 @@ from rcl_interfaces.msg import ParameterType, ParameterValue
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from ros_programs import Listener, Program, spinning, wait_for
-from std_msgs.msg import Float64MultiArray
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64, Float64MultiArray
 
 from tendon_statics import solve
 from tendon_statics.node.health import Health, Level
@@ -273,6 +274,33 @@ def test_one_of_two_drivers_that_does_not_fit_is_named_though_tensions_come(list
             heard.publish(Float64MultiArray(data=[1.0, 2.0]))
             wait_for('the answer', lambda: listener.regimes)
             listener.wait_for_status(WARN, 'a quality of service that does not fit')
+
+
+def test_a_sensor_of_the_angle_that_does_not_fit_is_named(listener):
+    arguments = (
+        *('-p', 'estimation:=tracking'),
+        *('-p', 'qos_overrides./measured_bend_angle.subscription.reliability:=reliable'),
+    )
+    with spinning(lambda context: Node('sensor', context=context)) as sensor:
+        best_effort = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+        sensor.create_publisher(Float64, 'measured_bend_angle', best_effort)
+        with listener.estimator(*arguments):
+            assert listener.answer(*HELD) == 'held'
+            listener.wait_for_status(WARN, '/measured_bend_angle is published with a quality')
+
+
+def test_a_driver_is_found_by_the_topic_that_is_remapped_once():
+    """With swapped cables each name is also that of the other topic."""
+    swapped = ('-r', 'tension_l:=/tension_s', '-r', 'tension_s:=/tension_l')
+    with (
+        spinning(Listener) as listener,
+        spinning(lambda context: Node('driver', context=context)) as driver,
+        Program.running('estimator', '--ros-args', '-p', 'tension_source:=wrench_pair', *swapped),
+    ):
+        driver.create_publisher(JointState, 'tension_s', 10)
+        status = listener.wait_for_status(STALE, 'JointState')
+        assert '/tension_s is published as sensor_msgs/msg/JointState' in status.message
+        assert '/tension_l' not in status.message
 
 
 def test_the_name_tells_estimators_apart(listener):

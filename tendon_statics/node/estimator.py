@@ -109,14 +109,15 @@ class Estimator(LifecycleNode):
         self._wiring = declare_wiring(self)
         self._outputs = Outputs(self, self._wiring)
         self._source = self._make_source()
-        self._inputs = [
-            self._tension_subscription(topic, *of_topic)
+        self._inputs = {
+            topic: self._tension_subscription(topic, *of_topic)
             for topic, of_topic in self._source.inputs.items()
-        ]
-        self._drained = list(self._inputs)
+        }
+        self._subscriptions_by_topic = dict(self._inputs)
         if self._wiring.estimation == 'tracking':
-            self._drained.append(
-                self._subscription(Float64, 'measured_bend_angle', self._on_measured_bend_angle)
+            topic = 'measured_bend_angle'
+            self._subscriptions_by_topic[topic] = self._subscription(
+                Float64, topic, self._on_measured_bend_angle
             )
         self._create_services()
         self._create_timers()
@@ -289,7 +290,7 @@ class Estimator(LifecycleNode):
     def _let_pass_what_waits(self) -> None:
         """Take the messages that came while inactive, which are not of the present."""
         self._newest.clear()
-        for subscription in self._drained:
+        for subscription in self._subscriptions_by_topic.values():
             for _ in waiting_messages(subscription, INPUT_DEPTH):
                 pass
 
@@ -437,7 +438,7 @@ class Estimator(LifecycleNode):
         self._report_change()
 
     def _input_names(self) -> str:
-        return ' and '.join(subscription.topic_name for subscription in self._inputs)
+        return ' and '.join(subscription.topic_name for subscription in self._inputs.values())
 
     def _on_measured_bend_angle(self, message: Float64) -> None:
         if self._state != ACTIVE or self._tracker is None:
@@ -522,7 +523,7 @@ class Estimator(LifecycleNode):
         name = self.get_fully_qualified_name().lstrip('/')
         self._publisher_counts = {
             subscription.topic_name: subscription.get_publisher_count()
-            for subscription in self._inputs
+            for subscription in self._inputs.values()
         }
         status = self._health.status(
             f'{name}: estimation',
@@ -538,20 +539,23 @@ class Estimator(LifecycleNode):
         self._outputs.report(status)
 
     def _misfit(self) -> str:
-        """Say which publishers of tensions are not heard, and why; empty if all are."""
+        """Say which publishers are not heard, and why; empty if all are."""
         misfits = [
             f'{subscription.topic_name} is published {misfit}'
-            for subscription in self._inputs
-            for info in self.get_publishers_info_by_topic(subscription.topic_name)
+            for topic, subscription in self._subscriptions_by_topic.items()
+            # Of the topic before it is remapped, which this does itself.
+            for info in self.get_publishers_info_by_topic(topic)
             if (misfit := self._misfit_of(info, subscription))
         ]
-        return '; '.join(misfits)
+        return '; '.join(dict.fromkeys(misfits))
 
     def _misfit_of(self, publisher: TopicEndpointInfo, subscription: Subscription) -> str:
         taken = messages.type_name(subscription.msg_type)
         if publisher.topic_type != taken:
-            source = self._wiring.tension_source
-            return f'as {publisher.topic_type}, but tension_source {source} takes {taken}'
+            taker = 'it'
+            if subscription in self._inputs.values():
+                taker = f'tension_source {self._wiring.tension_source}'
+            return f'as {publisher.topic_type}, but {taker} takes {taken}'
         fit, reason = qos_check_compatible(publisher.qos_profile, subscription.qos_profile)
         if fit == QoSCompatibility.ERROR:
             return f'with a quality of service that does not fit: {reason.rstrip("; ")}'

@@ -79,10 +79,10 @@ def check_tensions(design: JointDesign, tension_l: float, tension_s: float) -> t
     """
     if type(tension_l) is not float:
         tension_l = _as_float('tension_l', tension_l)
-    if type(tension_s) is not float:
-        tension_s = _as_float('tension_s', tension_s)
     if not 0.0 <= tension_l <= MAX_TENSION:
         raise _out_of_range('tension_l', tension_l)
+    if type(tension_s) is not float:
+        tension_s = _as_float('tension_s', tension_s)
     if not 0.0 <= tension_s <= MAX_TENSION:
         raise _out_of_range('tension_s', tension_s)
     taut = tension_l > 0.0 and tension_s > 0.0

@@ -24,6 +24,7 @@ GROUPS = (solver, batch, start_up, messages, node)
 
 SHARES = {
     'where `solve(...).as_dict()` spends its time': solver.shares,
+    'where `solve_batch`, all fields, spends its time': batch.shares,
     'where the node spends a message': node.shares,
 }
 """What is split up → what measures the share of each part"""

@@ -15,23 +15,55 @@ from tendon_statics import (
     solve,
     solve_batch,
 )
+from tendon_statics.physics import batch as batch_module
+from tendon_statics.physics.array_roots import ArraySlipEquation
 from tendon_statics.physics.batch import INVALID, REGIME_CODES
 
 from .rows import Row, at_least, at_most
+from .stop_watches import StopWatches
 from .timing import best_times
 from .yardstick import Yardstick
 
 PAIRS = 1_000_000
 LOOPED = 20_000
 """Pairs on which the loop is timed"""
+ROUNDS = 9
 MANY = 10_000_000
 TOLERANCE = 1e-9
+REST = 'pressure, and the rest'
+"""Of a batch, what is not measured by itself"""
 
 
 def rows() -> list[Row]:
     """Measure."""
     design = load_design(default_design_path())
     return [*_speed(design), *_memory(design)]
+
+
+def shares() -> dict[str, float]:
+    """Measure what part of a batch with all fields goes where."""
+    design = load_design(default_design_path())
+    tensions = mixed_pairs(design, PAIRS)
+    parts = (
+        (ArraySlipEquation, 'brackets', 'counting and bracketing roots'),
+        (ArraySlipEquation, '_newton', "Newton's method on the quartic"),
+        (ArraySlipEquation, 'roots', 'proving the brackets'),
+        (batch_module, '_solve_chunk', 'sorting pairs by regime, writing fields'),
+        (batch_module, '_gradients_of', 'gradients'),
+        (batch_module, '_contact_of', 'forces and remainder'),
+    )
+    with StopWatches(REST) as watches:
+        for owner, name, part in parts:
+            watches.put_on(owner, name, part)
+        took = []
+        for _ in range(ROUNDS):
+            watches.start()
+            all_fields(solve_batch(design, *tensions))
+            watches.turn_to('')
+            took.append(watches.took)
+    shortest = min(took, key=lambda of_round: of_round.total())
+    in_order = [part for *_, part in parts] + [REST]
+    return {part: shortest[part] / shortest.total() for part in in_order}
 
 
 def mixed_pairs(design: JointDesign, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -69,26 +101,28 @@ def all_fields(batch: EquilibriumBatch) -> list[np.ndarray]:
 
 def _speed(design: JointDesign) -> list[Row]:
     tension_l, tension_s = mixed_pairs(design, PAIRS)
-    yardstick = Yardstick(design)
-    _check_against_c(yardstick, solve_batch(design, tension_l, tension_s))
+    equation, quartic = Yardstick(design), Yardstick(design, 'quartic')
+    for yardstick in (equation, quartic):
+        _check_against_c(yardstick, solve_batch(design, tension_l, tension_s))
     some_l, some_s = tension_l[:LOOPED], tension_s[:LOOPED]
     _check_against_loop(solve_batch(design, some_l, some_s))
     pairs = list(zip(some_l.tolist(), some_s.tolist(), strict=True))
-    batch, c, loop = best_times(
+    batch, c, c_of_quartic, loop = best_times(
         [
             lambda: all_fields(solve_batch(design, tension_l, tension_s)),
-            lambda: yardstick.solve_many(tension_l, tension_s),
+            lambda: equation.solve_many(tension_l, tension_s),
+            lambda: quartic.solve_many(tension_l, tension_s),
             lambda: [_solved_alone(design, *pair) for pair in pairs],
         ],
-        rounds=9,
+        rounds=ROUNDS,
+    )
+    work, against = (
+        '`solve_batch`, 10^6 mixed pairs, all fields',
+        'bisection in C, -O3, one thread',
     )
     return [
-        at_most(
-            '`solve_batch`, 10^6 mixed pairs, all fields',
-            'bisection in C, -O3, one thread',
-            batch / c,
-            1.0,
-        ),
+        at_most(work, against, batch / c, 1.0),
+        Row(work, f'{against}, of the quartic', batch / c_of_quartic),
         at_least(
             '`solve_batch`, the same',
             'a loop of `solve`, all fields',

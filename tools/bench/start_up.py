@@ -6,11 +6,14 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
 
 from .rows import Row, at_most
 from .timing import best_times
 
 ROUNDS = 25
+LIMIT = 60
+"""s that a process may take"""
 
 
 def rows() -> list[Row]:
@@ -37,5 +40,11 @@ def rows() -> list[Row]:
 def _run(*command: str) -> None:
     # NumPy was compiled to bytecode when it was installed; the package is on its first run.
     environment = {k: v for k, v in os.environ.items() if k != 'PYTHONDONTWRITEBYTECODE'}
-    # With a timeout the end would be looked for at intervals of up to 50 ms.
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, env=environment)
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL, env=environment) as process:
+        # A limit given to `wait` would have it look for the end at intervals of up to 50 ms.
+        watchdog = threading.Timer(LIMIT, process.kill)
+        watchdog.start()
+        code = process.wait()
+        watchdog.cancel()
+    if code != 0:
+        raise RuntimeError(f'{" ".join(command)} ended with {code}, at the latest after {LIMIT} s')

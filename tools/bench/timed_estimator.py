@@ -8,54 +8,18 @@ from __future__ import annotations
 import json
 import sys
 import time
-from collections import Counter
 from typing import Any
 
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.publisher import Publisher
+from stop_watches import StopWatches
 
 from tendon_statics.node import estimator, outputs, program
 
 
-class StopWatches:
-    """CPU time of the present thread, given to the innermost part that is at work."""
-
-    def __init__(self) -> None:
-        self.start()
-
-    def start(self) -> None:
-        """Begin anew, with what belongs to no part."""
-        self.took: Counter[str] = Counter()
-        self._at_work = ['wait and dispatch']
-        self._since = time.thread_time()
-
-    def turn_to(self, part: str) -> None:
-        """Let one more part be at work, or go back from it to the one before, if it is empty."""
-        now = time.thread_time()
-        self.took[self._at_work[-1]] += now - self._since
-        self._since = now
-        if part:
-            self._at_work.append(part)
-        else:
-            self._at_work.pop()
-
-    def put_on(self, owner: Any, name: str, part: str) -> None:
-        """Count the time in a function as that of a part."""
-        function = getattr(owner, name)
-
-        def timed(*given: Any, **named: Any) -> Any:
-            self.turn_to(part)
-            try:
-                return function(*given, **named)
-            finally:
-                self.turn_to('')
-
-        setattr(owner, name, timed)
-
-
 def main() -> int:
     """Run the estimator, then say what took how long."""
-    watches = StopWatches()
+    watches = StopWatches('wait and dispatch')
     for owner, name, part in (
         (SingleThreadedExecutor, '_take_subscription', 'decode'),
         (estimator.ArraySource, '_take', 'decode'),

@@ -1,0 +1,267 @@
+"""What speaks to a program: sends tensions, takes its answers and checks them."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from ros_programs import Program, wait_for
+from std_msgs.msg import Float64, Float64MultiArray
+
+from tendon_statics.physics import paper
+
+TOPICS = ('bend_angle', 'joint_pressure')
+"""On which answers come"""
+
+NOISE = 0.002
+"""Standard deviation in N of the tensions around the published ones"""
+
+LOAD = 4000
+"""Messages at every rate that is tried: several times what the queue of a program holds"""
+
+HALVINGS = 6
+TRIALS = 2
+"""At a rate, until one loses nothing: what else the machine does may disturb one"""
+
+KEPT = 0.9
+"""Part of a rate that the caller has to hold itself"""
+
+QUIET = 0.3
+"""s without an answer after which none is expected any more of messages that came too fast"""
+
+PATIENCE = 2.0
+"""The same of messages that did not: one that waits so long is lost"""
+
+TOLERANCE = 1e-9
+"""Relative, of answers"""
+
+
+class Callee(NamedTuple):
+    """A program that answers tensions."""
+
+    name: str
+    """Its namespace"""
+    command: Sequence[str | Path]
+    answer: Callable[[float, float], tuple[float, float]]
+    """What it should say of T_l and T_s in N: bend angle in rad, pressure in Pa"""
+
+
+@dataclass(frozen=True)
+class Stream:
+    """What became of messages that were sent at an even rate."""
+
+    lost: int
+    """Answers that did not come"""
+    whole: bool
+    """Whether all came, and none too many, so that the times mean something"""
+    there_and_back: float
+    """Median time in s from a message to the last of its answers"""
+    cpu: float
+    """CPU time in s of the program for a message"""
+
+
+class Trial(NamedTuple):
+    """What became of `LOAD` messages, sent as fast as was asked for or possible."""
+
+    rate: float
+    """At which they were sent, in Hz"""
+    lost: bool
+
+
+class HighestRate(NamedTuple):
+    """The highest rate at which a program loses nothing."""
+
+    rate: float
+    """Hz"""
+    is_of_caller: bool
+    """Whether the caller can send no faster, so that the program may bear more"""
+
+
+class Caller(Node):
+    """Sends tensions to one program, which has a namespace of its own, and takes its answers."""
+
+    def __init__(self, callee: Callee, program: Program, context: Context) -> None:
+        super().__init__(
+            *('caller',),
+            namespace=callee.name,
+            context=context,
+            start_parameter_services=False,
+            enable_rosout=False,
+        )
+        self.name = callee.name
+        self._program = program
+        self._executor = SingleThreadedExecutor(context=context)
+        self._executor.add_node(self)
+        self._came: list[list[tuple[float, float]]] = [[] for _ in TOPICS]  # time, answer
+        self._tensions = self.create_publisher(
+            Float64MultiArray,
+            'tensions',
+            QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT),
+        )
+        for topic, came in zip(TOPICS, self._came, strict=True):
+            self.create_subscription(
+                Float64,
+                f'estimator/{topic}',
+                lambda message, came=came: came.append((time.perf_counter(), message.data)),
+                2 * LOAD,
+            )
+        draw = np.random.default_rng(1)
+        # No two alike, as from a sensor.
+        pairs = [paper.TENSION_L, paper.TENSION_S] + NOISE * draw.standard_normal((LOAD, 2))
+        self._messages = [Float64MultiArray(data=pair) for pair in pairs.tolist()]
+        self._expected = np.array([callee.answer(*pair) for pair in pairs.tolist()])
+
+    def connect(self) -> None:
+        """Wait until messages pass both ways, which is known of one end only."""
+        wait_for(f'{self.name} to be found', self._is_found)
+        for _ in range(100):
+            self._tensions.publish(self._messages[0])
+            self._spin_until(time.perf_counter() + 0.1)
+            if all(self._came):
+                break
+        else:
+            raise RuntimeError(f'{self.name} does not answer: {self._program.output()}')
+
+    def _is_found(self) -> bool:
+        self._spin_until(time.perf_counter() + 0.05)
+        return self._tensions.get_subscription_count() > 0 and all(
+            subscription.get_publisher_count() > 0 for subscription in self.subscriptions
+        )
+
+    def _spin_until(self, due: float) -> None:
+        while (left := due - time.perf_counter()) > 0.0:
+            self._executor.spin_once(timeout_sec=left)
+
+    def stream(self, rate: float, count: int) -> Stream:
+        """Send so many messages at an even rate, taking the answers in between.
+
+        Raises
+        ------
+        RuntimeError
+            If the program has ended, or an answer is wrong.
+        """
+        for came in self._came:
+            came.clear()
+        cpu = self._program.cpu_time()
+        sent = []
+        begin = time.perf_counter()
+        for index in range(count):
+            self._spin_until(begin + index / rate)
+            sent.append(time.perf_counter())
+            self._tensions.publish(self._messages[index])
+        self._take_what_comes(count)
+        self._check_that_it_lives()
+        cpu = self._program.cpu_time() - cpu
+        lost = sum(max(count - len(came), 0) for came in self._came)
+        whole = all(len(came) == count for came in self._came)
+        # Where one is lost or late, it is not known which.
+        back = self._times_back(sent) if whole else [math.nan]
+        return Stream(lost, whole, float(np.median(back)), cpu / count)
+
+    def _take_what_comes(self, count: int) -> None:
+        """Take answers until all or none comes any more."""
+        came, heard = 0, time.perf_counter()
+        while came < count * len(TOPICS) and time.perf_counter() < heard + PATIENCE:
+            self._executor.spin_once(timeout_sec=PATIENCE)
+            before, came = came, sum(map(len, self._came))
+            if came > before:
+                heard = time.perf_counter()
+
+    def _times_back(self, sent: list[float]) -> np.ndarray:
+        """Return the time from each message to the last of its answers, which are checked."""
+        came = np.array(self._came)  # topic, message, time and answer
+        expected = self._expected[: len(sent)].T
+        if not np.allclose(came[:, :, 1], expected, rtol=TOLERANCE, atol=0.0):
+            raise RuntimeError(f'{self.name} answers {came[:, 0, 1]}, expected {expected[:, 0]}')
+        return came[:, :, 0].max(axis=0) - sent
+
+    def _check_that_it_lives(self) -> None:
+        code = self._program.process.poll()
+        if code is not None:
+            raise RuntimeError(f'{self.name} has ended with {code}: {self._program.output()}')
+
+    def highest_rate(self, guess: float) -> HighestRate:
+        """Find the highest rate at which the program loses nothing; begin at a guess in Hz."""
+        low, high = 0.5 * guess, 4.0 * guess
+        lowest = low
+        while not (trial := self._bear(high)).lost:
+            if trial.rate < KEPT * high:
+                return HighestRate(trial.rate, is_of_caller=True)
+            low, high = high, 2.0 * high
+        high = min(high, trial.rate)
+        for _ in range(HALVINGS):
+            rate = math.sqrt(low * high)
+            if self._bear(rate).lost:
+                high = rate
+            else:
+                low = rate
+        if low == lowest and self._bear(low).lost:
+            raise RuntimeError(f'{self.name} loses messages even at {low:.0f} Hz')
+        return HighestRate(low, is_of_caller=False)
+
+    def _bear(self, rate: float) -> Trial:
+        """Return the first trial at a rate that loses nothing, or the last."""
+        for _ in range(TRIALS):
+            trial = self._try(rate)
+            if not trial.lost:
+                break
+        return trial
+
+    def _try(self, rate: float) -> Trial:
+        """Send `LOAD` messages at a rate, then take the answers, which wait in the middleware."""
+        expected = LOAD * len(TOPICS)
+        self._take_answers(expected + 1)  # Whatever came late of those before.
+        begin = time.perf_counter()
+        for index, message in enumerate(self._messages):
+            while (left := begin + index / rate - time.perf_counter()) > 0.0:
+                time.sleep(left)
+            self._tensions.publish(message)
+        took = time.perf_counter() - begin
+        lost = self._take_answers(expected) < expected
+        self._check_that_it_lives()
+        return Trial(LOAD / took, lost)
+
+    def _take_answers(self, most: int) -> int:
+        """Take answers past the executor until so many or none comes any more; return how many."""
+        came, heard = 0, time.perf_counter()
+        while came < most and time.perf_counter() < heard + QUIET:
+            before = came
+            for subscription in self.subscriptions:
+                with subscription.handle:
+                    while subscription.handle.take_message(Float64, False):
+                        came += 1
+            if came > before:
+                heard = time.perf_counter()
+            time.sleep(0.01)
+        return came
+
+    def end(self) -> str:
+        """End the program and return what it has written."""
+        self._program.end()
+        return self._program.output()
+
+
+@contextmanager
+def called(callee: Callee) -> Iterator[Caller]:
+    """Run a program and connect a caller with it."""
+    context = Context()
+    context.init()
+    command = [*callee.command, '--ros-args', '-r', f'__ns:=/{callee.name}']
+    with Program.running_command(command) as program:
+        caller = Caller(callee, program, context)
+        caller.connect()
+        try:
+            yield caller
+        finally:
+            caller.destroy_node()
+            context.try_shutdown()
