@@ -161,18 +161,18 @@ def test_a_tracked_unit_may_move_while_nobody_looks(listener):
         assert listener.reset().success
         listener.answer(*HELD)
         wait_for('the estimate', lambda: listener.estimates)
-        assert listener.estimates[-1].angle_assured
+        assert listener.newest_estimate().angle_assured
         assert listener.change_state('deactivate')
         assert listener.change_state('activate')
         listener.answer(*HELD)
         wait_for('the estimate', lambda: len(listener.estimates) == 2)
-        assert listener.estimates[-1].bend_angle == 0.1
-        assert not listener.estimates[-1].angle_assured
-        assert math.isnan(listener.estimates[-1].bend_angle_stddev)
+        assert listener.newest_estimate().bend_angle == 0.1
+        assert not listener.newest_estimate().angle_assured
+        assert math.isnan(listener.newest_estimate().bend_angle_stddev)
         listener.answer(*STOP)
         wait_for('the estimate', lambda: len(listener.estimates) == 3)
-        assert listener.estimates[-1].angle_assured
-        assert listener.estimates[-1].bend_angle == PRELIMINARY.max_bend_angle
+        assert listener.newest_estimate().angle_assured
+        assert listener.newest_estimate().bend_angle == PRELIMINARY.max_bend_angle
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM], ids=lambda n: n.name)

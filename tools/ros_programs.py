@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -56,13 +57,19 @@ MIRRORED = (3.5, 1.0)
 ANSWERED_AS_HELD = (1.0, 1.5)
 
 
+END_WITH_PARENT = ('setpriv', '--pdeathsig', 'TERM', '--') if shutil.which('setpriv') else ()
+"""So that a run that is killed leaves nothing behind in a ROS domain that others may take"""
+
+
 class Program:
     """A program of the package as a process of its own."""
 
     def __init__(self, command: Sequence[str | Path]) -> None:
         # Appending, since the position in the file is shared with the program.
         self._output = tempfile.TemporaryFile('a+')  # noqa: SIM115  closed in running_command
-        self.process = subprocess.Popen(command, stdout=self._output, stderr=subprocess.STDOUT)
+        self.process = subprocess.Popen(
+            [*END_WITH_PARENT, *command], stdout=self._output, stderr=subprocess.STDOUT
+        )
 
     def output(self) -> str:
         """What it has written so far, on both streams."""
@@ -384,6 +391,15 @@ class Listener(Node):
         self.publish(*data)
         wait_for(f'an answer to {data}', lambda: len(self.regimes) > before)
         return self.regimes[before]
+
+    def newest_estimate(self) -> Any:
+        """Wait for the estimate of the last answer, which is the last thing said of it."""
+
+        def come() -> bool:
+            return len(self.estimates) >= sum(regime != 'invalid' for regime in self.regimes)
+
+        wait_for('the estimate', come)
+        return self.estimates[-1]
 
     def call(self, name: str, request: Any) -> Any:
         """Call a service of the estimator.

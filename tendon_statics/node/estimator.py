@@ -94,7 +94,6 @@ class Estimator(LifecycleNode):
         self._latest: tuple[float, float, float] | None = None
         self._invalid_since_latest = 0
         self._rejected_corrections = 0
-        self._health = Health()
         self._reported_level = Level.OK
         self._newest: dict[str, int] = {}  # topic → number that its publisher gave a message
         self._publisher_counts: dict[str, int] = {}  # topic → how many, at the last report
@@ -107,6 +106,9 @@ class Estimator(LifecycleNode):
 
         self._left_out = declare_settings(self)
         self._wiring = declare_wiring(self)
+        # EventsExecutor fails on callbacks that take a message's number.
+        self._sees_numbers = self._wiring.executor == 'single'
+        self._health = Health(counts_lost=self._sees_numbers)
         self._outputs = Outputs(self, self._wiring)
         self._source = self._make_source()
         self._inputs = {
@@ -171,10 +173,8 @@ class Estimator(LifecycleNode):
             for waiting in waiting_messages(subscription, MOST_AT_ONCE):
                 on_numbered_message(*waiting)
 
-        # EventsExecutor fails on callbacks that take the number.
-        is_numbered = self._wiring.executor == 'single'
         subscription = self._subscription(
-            message_type, topic, on_numbered_messages if is_numbered else on_message
+            message_type, topic, on_numbered_messages if self._sees_numbers else on_message
         )
         return subscription
 

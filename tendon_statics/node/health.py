@@ -34,9 +34,15 @@ class Health:
 
     Every message received is used in a pair that was solved, dropped for a reason, or, of a pair
     of load cells, still waiting for its partner. Times are those of a steady clock, in s.
+
+    Parameters
+    ----------
+    counts_lost : bool
+        Whether it is seen how many are lost on the way; else no number is given.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, counts_lost: bool = True) -> None:
+        self._counts_lost = counts_lost
         self.received = 0
         self.solved = 0
         self.lost = 0
@@ -156,7 +162,7 @@ class Health:
             'longest solve time [ms]': f'{self._longest_solve * 1e3:.3f}' if solved else '',
             'messages received': str(self.received),
             'pairs solved': str(self.solved),
-            'messages lost on the way': str(self.lost),
+            'messages lost on the way': str(self.lost) if self._counts_lost else 'not counted',
             **{f'dropped: {reason.value}': str(self.dropped[reason]) for reason in Reason},
             'last drop': self.last_drop,
             **{f'publishers on {topic}': str(count) for topic, count in publishers.items()},

@@ -56,7 +56,7 @@ AWAITED_SUBSCRIBERS = NumberParameter(
     0,
     100,
     '',
-    'subscribers on each topic of tensions to wait for before the first reading',
+    'subscribers on each topic of tensions that it has to have found before the first reading',
 )
 
 
@@ -108,6 +108,11 @@ class PulleyDriver(Node):
         tick = max(1.0 / self._rate, SHORTEST_TICK)
         self._tick = tick / math.ceil(tick / LONGEST_TICK)
         self._timer = self.create_timer(self._tick, self._send_due, clock=self._steady_clock)
+        awaited = self._awaited_subscribers
+        self.get_logger().info(
+            f'Ready: {len(self._rows)} rows at {self._rate:g} Hz'
+            + (f', once it has found {awaited} subscribers on each topic' if awaited else '')
+        )
 
     def destroy_node(self) -> None:
         """Say what was sent, unless that was said at the end of it, and destroy the node."""
