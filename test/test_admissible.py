@@ -54,15 +54,21 @@ def test_the_intervals_are_those_of_the_oracle(case):
         assert abs(oracle(design, tension_l, tension_s, end)) < 1e-9 * scale
 
 
-def test_intervals_that_touch_at_a_root_are_one():
-    """The last root is a few roundings from the stop, and g beyond it is zero but for rounding."""
+@pytest.mark.parametrize('mirrored', [False, True])
+def test_a_root_next_to_the_stop_ends_an_interval(mirrored):
+    """A few roundings from it, where g beyond it is not above zero, by rounding."""
     design = JointDesign(
         *(0.015625, 0.0, 0.0, 0.1353352832366127, 1.5),
         *(0.84375, 1.34375, 0.8190939495074784, 9.81),
     )
-    ((low, high),) = admissible_angles(design, 0.18328442792605726, 2.471993829176284)
-    assert low == pytest.approx(0.1349987040823147, abs=1e-12)
-    assert high == design.max_bend_angle
+    tensions = (0.18328442792605726, 2.471993829176284)
+    stop, root = design.max_bend_angle, 0.8190939495074776
+    assert stop - 1e-15 < root < stop
+    intervals = admissible_angles(design, *(reversed(tensions) if mirrored else tensions))
+    if mirrored:
+        intervals = [(-high, -low) for low, high in reversed(intervals)]
+    assert intervals[0] == (pytest.approx(0.1349987040823147, abs=1e-12), root)
+    assert intervals[1:] in ([], [(stop, stop)])
 
 
 @given(cases(), st.floats(-1.0, 1.0))

@@ -275,15 +275,19 @@ def test_one_of_two_drivers_that_does_not_fit_is_named_though_tensions_come(list
         best_effort = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
         driver.create_publisher(Float64MultiArray, 'tensions', best_effort)
         with Program.running('estimator', '--ros-args', '-p', 'input_timeout:=60.0', *reliable):
-            wait_for('the driver to be heard', lambda: heard.get_subscription_count() > 0)
-            heard.publish(Float64MultiArray(data=[1.0, 2.0]))
-            wait_for('the answer', lambda: listener.regimes)
+
+            def is_answered() -> bool:
+                heard.publish(Float64MultiArray(data=[1.0, 2.0]))
+                return bool(listener.regimes)
+
+            # Again and again, since what is sent before all have found each other is lost.
+            wait_for('an answer', is_answered)
             listener.wait_for_status(WARN, 'a quality of service that does not fit')
 
 
 def test_a_sensor_of_the_angle_that_does_not_fit_is_named(listener):
     arguments = (
-        *('-p', 'estimation:=tracking'),
+        *('-p', 'estimation:=tracking', '-p', 'input_timeout:=60.0'),
         *('-p', 'qos_overrides./measured_bend_angle.subscription.reliability:=reliable'),
     )
     with spinning(lambda context: Node('sensor', context=context)) as sensor:

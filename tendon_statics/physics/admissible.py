@@ -131,9 +131,12 @@ def _angles_below_limit(design: JointDesign, tension_l: float, tension_s: float)
     found: list[Interval] = []
     for low, high in pairwise([-stop, *roots, stop]):
         if low < high and equation.residual(0.5 * (low + high)) <= 0.0:
-            # Below on both sides of a root: g hardly more than touches zero there.
-            touching = bool(found) and found[-1][1] == low
-            found.append((found.pop()[0] if touching else low, high))
+            if found and found[-1][1] == low:
+                # g changes sign at a root, so one side is below zero by rounding: the narrow one.
+                if high - low <= low - found[-1][0]:
+                    continue
+                found.pop()
+            found.append((low, high))
     # A root at the very end of the range, with g above zero beside it, is a point of its own.
     for root in roots:
         if not any(low <= root <= high for low, high in found):
