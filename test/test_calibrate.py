@@ -118,7 +118,7 @@ def test_a_session_has_to_say_what_slips(tmp_path):
     samples = measured(slipping_samples(20, np.random.default_rng(2)), np.random.default_rng(2))
     rows = [f'{index},' + ','.join(map(repr, row)) for index, row in enumerate(samples.tolist())]
     path.write_text('time,tension_l,tension_s,bend_angle,pressure\n' + '\n'.join(rows) + '\n')
-    assert_refused(run('calibrate', path), 'or --motion-step-deg), or say that all are')
+    assert_refused(run('calibrate', path), 'say that all are (--all-slipping)')
     assert 'slipping: 20' in run('calibrate', path, '--all-slipping').stdout
 
 

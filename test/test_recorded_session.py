@@ -138,7 +138,10 @@ def test_a_report_of_what_cannot_be_fitted_says_why(tmp_path):
     [
         (['plot', 'recording', 'missing.csv', '--output', 'f.svg'], 'missing.csv'),
         (['plot', 'recording', str(OUTPUT), '--output', 'f.doc'], 'f.doc'),
-        (['plot', 'calibration', str(OUTPUT), '--fit', 'x', '--output', 'f.svg'], "'x', which"),
+        (
+            ['plot', 'calibration', str(OUTPUT), *STATES, '--fit', 'x', '--output', 'f.svg'],
+            "'x', which",
+        ),
         (['plot', 'map', '--points', '0', '--output', 'f.svg'], '--points is 0'),
         (['plot', 'map', '--quantity', 'mass', '--output', 'f.svg'], 'mass'),
         (['report', str(OUTPUT), '--output', 'report.pdf'], 'ending in .html'),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from unittest.mock import patch
 
 from domain_coordinator import domain_id
 
@@ -12,12 +13,13 @@ from domain_coordinator import domain_id
 @contextmanager
 def own_domain() -> Iterator[int]:
     """Take a ROS domain that nobody else on this machine has, and start nothing beyond it."""
-    os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     # Entered by hand, since it would hide an exception behind one of its own.
     coordinator = domain_id()
     domain = coordinator.__enter__()
-    os.environ['ROS_DOMAIN_ID'] = str(domain)
+    here = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'ROS_DOMAIN_ID': str(domain)}
     try:
-        yield domain
+        # Whoever has a domain already is back in it afterwards; this one is then free for others.
+        with patch.dict(os.environ, here):
+            yield domain
     finally:
         coordinator.__exit__(None, None, None)

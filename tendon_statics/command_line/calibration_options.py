@@ -9,6 +9,7 @@ import math
 from ..physics import Calibration, JointDesign, calibrate
 from ..physics.calibration import DEFAULT_FIT
 from ..physics.calibration_result import SLIPPING
+from ..recordings.errors import RecordingError
 from ..recordings.motion import mark_motion
 from ..recordings.recording import Recording
 from .options import UsageError, add_tension_stddev_option
@@ -53,11 +54,28 @@ def add_calibration_options(parser: argparse.ArgumentParser) -> None:
 
 
 def states_from(options: argparse.Namespace, recording: Recording) -> Recording:
-    """Give the recording the states that the options ask for."""
+    """Give the recording the states that the options ask for.
+
+    Raises
+    ------
+    RecordingError
+        If an option is needed that names the angle, or says what is slipping.
+    """
+    if recording.bend_angle is None:
+        raise RecordingError(
+            f'there is no measured bend angle in {recording.name}: neither a column bend_angle '
+            'nor, in a bag, the topic /measured_bend_angle or another named by --bend-angle-topic'
+        )
     if options.motion_step_deg is not None:
         return mark_motion(recording, math.radians(options.motion_step_deg))
     if options.all_slipping:
         return dataclasses.replace(recording, state=[SLIPPING] * len(recording))
+    if recording.state is None and recording.time is not None:
+        raise RecordingError(
+            f'the samples of {recording.name} follow each other in time, but have no state that '
+            'says which of them are slipping: take it from the motions of the angle '
+            '(--motion-step-deg), or say that all are (--all-slipping)'
+        )
     return recording
 
 

@@ -209,8 +209,8 @@ class _Problem:
         if not found.success:
             raise CalibrationError(
                 f'the search for the best design has not ended after {found.nfev} designs: '
-                'look for wrong units, signs or states, start nearer, with another --design, or '
-                'fit fewer parameters'
+                'look for wrong units, signs or states, start from a nearer design, or fit fewer '
+                'parameters'
             )
         self._scaled = found.x
 

@@ -77,15 +77,12 @@ class SortedSamples:
 
     def __init__(self, design: JointDesign, data: Samples, noise: Noise) -> None:
         if data.bend_angle is None:
-            raise CalibrationError(
-                'there is no measured bend angle in the data: neither a column bend_angle nor, '
-                'in a bag, the topic /measured_bend_angle or another named by --bend-angle-topic'
-            )
+            raise CalibrationError('there is no measured bend angle in the data')
         if data.state is None and data.time is not None:
             raise CalibrationError(
                 'the samples follow each other in time, but have no state that says which of them '
-                'are slipping: take it from the motions of the angle (mark_motion, or '
-                '--motion-step-deg), or say that all are (the state slipping, or --all-slipping)'
+                'are slipping: take it from the motions of the angle (mark_motion), or say that '
+                'all are (the state slipping)'
             )
         self.noise = noise
         self.tension_l = as_floats(data.tension_l)

@@ -34,11 +34,7 @@ def mark_motion(recording: Recording, step: float) -> Recording:
         If there is no angle, time goes back, or the step is not above 0.
     """
     if recording.bend_angle is None:
-        raise RecordingError(
-            f'{recording.name}: there is no measured bend angle in it: neither '
-            'a column bend_angle nor, in a bag, the topic /measured_bend_angle or another that is '
-            'named (--bend-angle-topic)'
-        )
+        raise RecordingError('there is no measured bend angle in the data')
     if not step > 0.0:
         raise RecordingError(f'the step of a motion is {step!r} rad, which must be above 0')
     recording.in_order()

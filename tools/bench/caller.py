@@ -18,13 +18,10 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from ros_programs import Program, wait_for
 from std_msgs.msg import Float64, Float64MultiArray
 
-from tendon_statics.physics import paper
+from .pairs import noisy_pairs
 
 TOPICS = ('bend_angle', 'joint_pressure')
 """On which answers come"""
-
-NOISE = 0.002
-"""Standard deviation in N of the tensions around the published ones"""
 
 LOAD = 4000
 """Messages at every rate that is tried: several times what the queue of a program holds"""
@@ -115,11 +112,9 @@ class Caller(Node):
                 lambda message, came=came: came.append((time.perf_counter(), message.data)),
                 2 * LOAD,
             )
-        draw = np.random.default_rng(1)
-        # No two alike, as from a sensor.
-        pairs = [paper.TENSION_L, paper.TENSION_S] + NOISE * draw.standard_normal((LOAD, 2))
-        self._messages = [Float64MultiArray(data=pair) for pair in pairs.tolist()]
-        self._expected = np.array([callee.answer(*pair) for pair in pairs.tolist()])
+        pairs = noisy_pairs(LOAD).tolist()
+        self._messages = [Float64MultiArray(data=pair) for pair in pairs]
+        self._expected = np.array([callee.answer(*pair) for pair in pairs])
 
     def connect(self) -> None:
         """Wait until messages pass both ways, which is known of one end only."""

@@ -10,12 +10,10 @@ from tendon_statics.physics.roots import SlipEquation
 from tendon_statics.physics.solver import check_tensions
 
 from . import numpy_port
+from .pairs import noisy_pairs
 from .rows import Row, at_least, at_most
 from .timing import best_times
 from .yardstick import Yardstick
-
-NOISE = 0.002
-"""Standard deviation in N of the tensions around the published ones"""
 
 
 def rows() -> list[Row]:
@@ -74,9 +72,7 @@ def _all_fields(design) -> Row:
 
 
 def _angle_and_pressure(design) -> list[Row]:
-    # As from a sensor: no two pairs alike.
-    draw = np.random.default_rng(1)
-    pairs = [paper.TENSION_L, paper.TENSION_S] + NOISE * draw.standard_normal((4000, 2))
+    pairs = noisy_pairs(4000)
     # All alike: the processor learns the one way of the branches by heart, which helps C.
     same = np.tile([paper.TENSION_L, paper.TENSION_S], (4000, 1))
     equation, quartic = Yardstick(design), Yardstick(design, 'quartic')
