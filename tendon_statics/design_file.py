@@ -8,7 +8,7 @@ from pathlib import Path
 from .installed_files import installed_config
 from .output_file import output_file
 from .parameter_file import parameter_blocks
-from .physics.design import JointDesign, design_parameters
+from .physics.design import JointDesign, design_fields
 from .physics.errors import DesignError
 from .yaml_file import YamlFileError, read_yaml
 
@@ -61,10 +61,12 @@ def save_design(path: str | Path, design: JointDesign, comment: str = '') -> Non
     """
     lines = [f'# {line}'.rstrip() for line in comment.splitlines()]
     lines += ['/**:', '  ros__parameters:', '    design:']
-    for parameter in design_parameters():
-        entry = f'{parameter.name}: {getattr(design, parameter.name)!r}'
-        unit = parameter.unit or '1'
-        lines.append(f'      {entry:<44}  # [{unit}] {parameter.symbol}, {parameter.description}')
+    for field in design_fields():
+        value = getattr(design, field.name)
+        entry = f'{field.name}: {value if isinstance(value, str) else repr(value)}'
+        meaning = f'{field.symbol}, {field.description}' if field.symbol else field.description
+        unit = field.unit or ('1' if field.symbol else field.allowed)
+        lines.append(f'      {entry:<44}  # [{unit}] {meaning}')
     with output_file(Path(path)) as temporary:
         temporary.write_text('\n'.join(lines) + '\n', encoding='utf-8')
 

@@ -47,12 +47,13 @@ def test_a_round_trip_by_pressure(case):
     design, tension_l, tension_s = case
     equilibrium = solve(design, tension_l, tension_s)
     assume(equilibrium.regime is Regime.EQUILIBRIUM and tension_l != tension_s)
+    # At a stop the inverse aims just inside of it.
+    assume(design.max_bend_angle - abs(equilibrium.bend_angle) > 1e-9)
     # A root at 0 to the last digits may be there for the one pair and not for the other.
     assume(abs(residual(design, *sorted((tension_l, tension_s)), 0.0)) > 1e-9 * tension_l)
     # Where two roots merge, the smallest rounding moves the angle.
     assume(max(map(abs, equilibrium.bend_angle_gradient)) * (tension_l + tension_s) < 1e4)
     tensions = tensions_for(design, equilibrium.bend_angle, pressure=equilibrium.pressure)
-    # At a stop the inverse aims just inside of it.
     assert tuple(tensions) == pytest.approx((tension_l, tension_s), rel=1e-8)
 
 

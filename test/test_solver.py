@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from quartic import solve_quartic
 
 from tendon_statics import Equilibrium, JointDesign, Regime, TensionError, solve
-from tendon_statics.physics import design_parameters, residual
+from tendon_statics.physics import UPRIGHT, design_parameters, residual
 
 ANGLE_TOLERANCE = 1e-9
 PRESSURE_TOLERANCE = 1e-9
@@ -49,7 +49,7 @@ def test_the_published_case():
     assert equilibrium.pressure == pytest.approx(405.6, abs=5e-6)
     assert equilibrium.stable is False
     assert equilibrium.branch_consistent is True
-    assert 30 <= equilibrium.iterations <= 33
+    assert 1 <= equilibrium.iterations <= 12
     assert abs(equilibrium.residual) < 1e-12
 
 
@@ -201,7 +201,7 @@ def test_what_is_not_determined_is_none():
     for tensions, regime in (((1.0, 1.5), Regime.HELD), ((0.0, 2.0), Regime.SLACK)):
         equilibrium = solve(PRELIMINARY, *tensions)
         assert equilibrium == Equilibrium(
-            PRELIMINARY, regime, *tensions, root_count=0, iterations=0
+            PRELIMINARY, UPRIGHT, regime, *tensions, root_count=0, iterations=0
         )
         assert equilibrium.bend_angle_stddev(0.01) is None
         assert equilibrium.pressure_stddev(0.01) is None
@@ -223,7 +223,7 @@ def test_a_result_is_a_value(tensions):
 def test_the_dict_has_all_that_the_result_has():
     equilibrium = solve(PRELIMINARY, 1.0, 2.0)
     fields = equilibrium.as_dict()
-    assert set(Equilibrium._fields) - set(fields) == {'design'}
+    assert set(Equilibrium._fields) - set(fields) == {'design', 'load', 'slip_gradient'}
     for name, value in fields.items():
         attribute = getattr(equilibrium, name)
         assert value == (attribute._asdict() if isinstance(value, dict) else attribute), name

@@ -7,11 +7,11 @@ from designs import PRELIMINARY, cases, random_cases
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tendon_statics import JointDesign, Regime, TensionError
+from tendon_statics import Equilibrium, JointDesign, Regime, TensionError
 from tendon_statics.physics import (
+    UPRIGHT,
     BendAngleError,
     StickSlipTracker,
-    TrackedState,
     admissible_angles,
     slip_margin,
 )
@@ -289,8 +289,8 @@ def test_a_slip_to_an_angle_keeps_that_angles_uncertainty_while_held():
 def test_a_slack_cable_leaves_the_angle_unsure_until_a_stop_or_a_reset():
     tracker = StickSlipTracker(PRELIMINARY, 0.1)
     assert tracker.update(1.0, 1.5).angle_assured
-    assert tracker.update(0.0, 1.5) == TrackedState(
-        Regime.SLACK, 0.0, 1.5, bend_angle=None, angle_assured=False
+    assert tracker.update(0.0, 1.5) == Equilibrium(
+        PRELIMINARY, UPRIGHT, Regime.SLACK, 0.0, 1.5, angle_assured=False
     )
     after = tracker.update(1.0, 1.5)
     assert (after.regime, after.bend_angle, after.angle_assured) == (Regime.HELD, 0.1, False)

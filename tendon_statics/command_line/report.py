@@ -12,7 +12,7 @@ from pathlib import Path
 from string import Template
 
 from ..output_file import OutputError, output_file
-from ..physics import Calibration, CalibrationError, JointDesign, design_parameters
+from ..physics import Calibration, CalibrationError, JointDesign, design_fields
 from ..recordings.errors import RecordingError
 from ..recordings.recording import Recording
 from . import figure_calibration, figure_recording
@@ -148,17 +148,21 @@ def _calibration_part(calibration: Calibration, recording: Recording, start: str
 
 def _design_table(start: JointDesign, design: JointDesign) -> str:
     rows = []
-    for parameter in design_parameters():
-        before, after = (getattr(of, parameter.name) for of in (start, design))
+    for field in design_fields():
+        before, after = (_plain(getattr(of, field.name)) for of in (start, design))
         rows.append(
             (
-                parameter.name,
-                f'{after:.7g}',
-                parameter.unit or '1',
-                parameter.description + (f' (fitted; was {before:.7g})' * (before != after)),
+                field.name,
+                after,
+                field.unit or '1',
+                field.description + (f' (fitted; was {before})' * (before != after)),
             )
         )
     return _table(('parameter', 'value', 'unit', 'meaning'), rows)
+
+
+def _plain(value: float | str) -> str:
+    return value if isinstance(value, str) else f'{value:.7g}'
 
 
 def _warning(text: str) -> str:

@@ -31,7 +31,6 @@ from ..physics import (
     Equilibrium,
     StickSlipTracker,
     TensionError,
-    TrackedState,
     solve,
 )
 from . import messages
@@ -419,7 +418,7 @@ class Estimator(LifecycleNode):
 
     def _result(
         self, tracker: StickSlipTracker | None, tension_l: float, tension_s: float
-    ) -> Equilibrium | TrackedState:
+    ) -> Equilibrium:
         if tracker is None:
             return solve(self._settings.design, tension_l, tension_s)
         return tracker.update(tension_l, tension_s)

@@ -8,7 +8,7 @@ from enum import IntEnum
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
-from ..physics import Equilibrium, Regime, TrackedState
+from ..physics import Equilibrium, Regime
 from .tension_source import Reason
 
 
@@ -76,7 +76,7 @@ class Health:
             return Level.STALE
         return Level.WARN if self._is_warned else Level.OK
 
-    def note_result(self, result: Equilibrium | TrackedState, solve_time: float) -> None:
+    def note_result(self, result: Equilibrium, solve_time: float) -> None:
         """Count a pair that was solved, in so many seconds."""
         self.solved += 1
         self.stale = False
@@ -84,10 +84,10 @@ class Health:
         self._regime = result.regime.value
         self._solve_time += solve_time
         self._longest_solve = max(self._longest_solve, solve_time)
-        if isinstance(result, Equilibrium) and result.regime is Regime.HELD:
+        if not result.is_tracked and result.regime is Regime.HELD:
             self._held += 1
             self._is_warned = True
-        if isinstance(result, TrackedState) and not result.angle_assured:
+        if not result.angle_assured:
             self._unassured += 1
             self._is_warned = True
         if result.branch_consistent is False:

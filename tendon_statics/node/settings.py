@@ -7,12 +7,19 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 
 from ..design_file import default_design_path, load_design
-from ..physics import BendAngleError, DesignError, JointDesign, design_parameters
+from ..physics import (
+    BendAngleError,
+    DesignError,
+    DesignParameter,
+    JointDesign,
+    design_fields,
+)
 from ..physics.admissible import check_bend_angle
-from ..physics.solver import MAX_TENSION
+from ..physics.tensions import MAX_TENSION
 from .number_parameter import NumberParameter, SettingError
 from .parameters import BIASES, CABLES, GAINS, declare_number
 from .tension_source import Calibration
@@ -116,14 +123,14 @@ def declare_settings(node: Node) -> set[str]:
         value = overrides[PREFIX[:-1]].value
         raise SettingError(f'design is {value!r}, but its parameters have names: {PREFIX}mass')
     given = [name[len(PREFIX) :] for name in overrides if name.startswith(PREFIX)]
-    known = {parameter.name for parameter in design_parameters()}
+    known = {field.name for field in design_fields()}
     for name in given:
         if name not in known:
             _design({PREFIX + name: overrides[PREFIX + name].value})
     left_out = [
-        parameter.name
-        for parameter in design_parameters()
-        if parameter.name not in given and parameter.default is None
+        field.name
+        for field in design_fields()
+        if field.name not in given and field.default is None
     ]
     if not given:
         node.get_logger().warning(
@@ -135,18 +142,27 @@ def declare_settings(node: Node) -> set[str]:
             'The parameters give a part of the design only; taken from the preliminary design: '
             + ', '.join(f'{PREFIX}{name} = {getattr(default, name)!r}' for name in left_out)
         )
-    for parameter in design_parameters():
-        declare_number(
-            node,
-            NumberParameter(
-                name=PREFIX + parameter.name,
-                default=getattr(default, parameter.name),
-                minimum=parameter.minimum,
-                maximum=parameter.maximum,
-                unit=parameter.unit,
-                description=f'{parameter.description} ({parameter.symbol})',
-            ),
-        )
+    for field in design_fields():
+        if isinstance(field, DesignParameter):
+            declare_number(
+                node,
+                NumberParameter(
+                    name=PREFIX + field.name,
+                    default=getattr(default, field.name),
+                    minimum=field.minimum,
+                    maximum=field.maximum,
+                    unit=field.unit,
+                    description=f'{field.description} ({field.symbol})',
+                ),
+            )
+        else:
+            node.declare_parameter(
+                PREFIX + field.name,
+                getattr(default, field.name),
+                ParameterDescriptor(
+                    description=field.description, additional_constraints=field.allowed
+                ),
+            )
     for number in NUMBERS:
         declare_number(node, number)
     return {PREFIX + name for name in left_out}
@@ -161,7 +177,7 @@ def read_settings(node: Node, changes: Iterable[Any] = ()) -> Settings:
         If the whole is not valid.
     """
     names = [number.name for number in NUMBERS]
-    names += [PREFIX + parameter.name for parameter in design_parameters()]
+    names += [PREFIX + field.name for field in design_fields()]
     values = {name: node.get_parameter(name).value for name in names}
     return Settings.from_values(values | {change.name: change.value for change in changes})
 

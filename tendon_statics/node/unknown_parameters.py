@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rclpy.node import Node
 
-from ..physics import design_parameters
+from ..physics import design_fields
 from .faults import fault_parameters
 from .settings import NUMBERS, PREFIX
 from .wiring import Wiring
@@ -12,7 +12,7 @@ from .wiring import Wiring
 ESTIMATOR_PARAMETERS = (
     *Wiring._fields,
     *(number.name for number in NUMBERS),
-    *(PREFIX + parameter.name for parameter in design_parameters()),
+    *(PREFIX + field.name for field in design_fields()),
 )
 DRIVER_PARAMETERS = (
     *('file', 'loop', 'rate', 'count', 'awaited_subscribers'),

@@ -3,21 +3,30 @@
 from typing import TYPE_CHECKING, Any
 
 from .admissible import admissible_angles, slip_margin
-from .contact import ContactCoefficients, ContactForces, ForceRemainder, contact_coefficients
-from .design import DesignParameter, JointDesign, design_parameters
-from .equations import residual
-from .equilibrium import Equilibrium, Regime
+from .contact import CONTACT_LAWS
+from .design import (
+    DesignChoice,
+    DesignParameter,
+    JointDesign,
+    design_fields,
+    design_parameters,
+)
 from .errors import (
     BendAngleError,
     CalibrationError,
     DesignError,
+    LoadError,
     TensionError,
     UnreachableError,
 )
-from .inverse import Tensions, tensions_for
-from .sensitivity import TensionGradient
-from .solver import solve
-from .tracker import StickSlipTracker, TrackedState
+from .forces import ContactCoefficients, ContactForces, ForceRemainder, contact_coefficients
+from .gradients import TensionGradient
+from .inverse import tensions_for
+from .load import UPRIGHT, Load
+from .solver import residual, solve
+from .state import Equilibrium, Regime
+from .tensions import Tensions
+from .tracker import StickSlipTracker
 
 if TYPE_CHECKING:
     from .batch import EquilibriumBatch, solve_batch
@@ -25,27 +34,32 @@ if TYPE_CHECKING:
     from .calibration_result import Calibration
 
 __all__ = [
+    'CONTACT_LAWS',
+    'UPRIGHT',
     'BendAngleError',
     'Calibration',
     'CalibrationError',
     'ContactCoefficients',
     'ContactForces',
+    'DesignChoice',
     'DesignError',
     'DesignParameter',
     'Equilibrium',
     'EquilibriumBatch',
     'ForceRemainder',
     'JointDesign',
+    'Load',
+    'LoadError',
     'Regime',
     'StickSlipTracker',
     'TensionError',
     'TensionGradient',
     'Tensions',
-    'TrackedState',
     'UnreachableError',
     'admissible_angles',
     'calibrate',
     'contact_coefficients',
+    'design_fields',
     'design_parameters',
     'residual',
     'slip_margin',

@@ -14,7 +14,7 @@ from .calibration_result import HELD, SLIPPING
 from .design import JointDesign
 from .errors import CalibrationError
 from .slip_boundary import BoundaryDistance, Noise, boundary_distance
-from .solver import MAX_TENSION
+from .tensions import MAX_TENSION
 
 AT_STOP = 3.0
 """Standard deviations of the angle within which a unit at rest is taken to be at its stop"""

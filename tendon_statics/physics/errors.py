@@ -17,6 +17,10 @@ class DesignError(ValueError):
         self.key = key
 
 
+class LoadError(ValueError):
+    """A dead load that the model does not take."""
+
+
 class TensionError(ValueError):
     """A pair of cable tensions that the model does not take."""
 

@@ -7,10 +7,10 @@ import math
 from collections.abc import Collection
 from enum import Enum
 
-from .contact import contact_coefficients
 from .design import JointDesign
-from .equilibrium import Regime
+from .forces import contact_coefficients
 from .solver import solve
+from .state import Regime
 
 TENSION_L, TENSION_S = 1.0, 2.0
 """Published input, N"""

@@ -19,8 +19,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .array_roots import ArraySlipEquation, Floats
+from .array_roots import Floats
 from .design import JointDesign
+from .gradients import ByCable, normal_by_tensions, slip_by_tensions
+from .load import UPRIGHT, Load
+from .slip import Slip
 
 
 class Noise(NamedTuple):
@@ -54,6 +57,7 @@ def boundary_distance(
     bend_angle: Floats,
     pressure: Floats,
     noise: Noise,
+    load: Load = UPRIGHT,
 ) -> BoundaryDistance:
     """Measure the distance of samples from the boundary of slip.
 
@@ -65,33 +69,40 @@ def boundary_distance(
         In Pa; NaN where it is not measured.
     """
     with np.errstate(all='ignore'):
-        moment = (tension_s - tension_l) * (design.ball_radius + design.cable_offset)
-        moment = moment + design.weight * design.com_distance * np.sin(bend_angle)
-        side = np.where(moment < 0.0, -1.0, 1.0)
-        total = np.where(tension_l + tension_s > design.weight, tension_l + tension_s, np.nan)
-        behind: Any = np.where(side > 0.0, tension_l, tension_s)
-        ahead: Any = np.where(side > 0.0, tension_s, tension_l)
-        equation = ArraySlipEquation(design, behind, ahead)
-        _, asked, force, root, direction = equation.points(side * bend_angle)
-        cos_phi = direction * np.cos(bend_angle)
+        total = tension_l + tension_s
+        dead = load.on(design)
+        excess_tension = np.where(total > dead.size, total - dead.size, np.nan)
+        slip = Slip.towards_s(design, dead, excess_tension, tension_l, tension_s)
+        moment = slip.moment.at(bend_angle, np.cos(bend_angle), np.sin(bend_angle))
+        slip = slip.facing(np.where(moment < 0.0, -1.0, 1.0))
+        ahead = slip.side * bend_angle
+        point = slip.at_turn(ahead, np.cos(ahead), np.sin(ahead))
+        slopes = slip.law.normal_slopes(slip.load, point.cosine, point.sine, point.capacity)
 
-        excess = total * (asked - force)
-        force_by_total = (1.0 - force) / root
-        weight, cable_gain = design.weight, side * design.slip_geometry.cable_gain
-        force_by_angle = side * design.friction_coefficient * weight * force * cos_phi / root
-        by_l, by_s = -cable_gain - force_by_total, cable_gain - force_by_total
-        by_angle = side * design.slip_geometry.weight_gain * np.cos(bend_angle) - force_by_angle
+        scale = 1.0 / design.friction_coefficient
+        excess = scale * total * point.excess
+        lever = design.relative_lever
+        by_behind, by_ahead = (scale * total * by for by in slip_by_tensions(slip, point, lever))
+        # Of r T g, which adds g itself to the derivatives of g.
+        by_behind, by_ahead = by_behind + scale * point.excess, by_ahead + scale * point.excess
+        by_angle = scale * total * point.slope
+
+        still = ByCable(0.0, 0.0)
+        force = normal_by_tensions(slip, point, slopes, lever, angle=still, at_limit=True)
+        force_by_angle = total * (slopes.by_tilt + slopes.by_moment * point.by_tilt)
 
         of_tension, of_angle = noise.tension**2, noise.bend_angle**2
-        variance = of_tension * (by_l**2 + by_s**2) + of_angle * by_angle**2
+        variance = of_tension * (by_behind**2 + by_ahead**2) + of_angle * by_angle**2
         standardised = excess / np.sqrt(variance)
 
+        # q = p C w − N: all its noise but that of p comes with the minus of N.
         area = design.contact_area
-        covariance = -of_tension * force_by_total * (by_l + by_s)
+        covariance = -of_tension * (force.behind * by_behind + force.ahead * by_ahead)
         covariance -= of_angle * force_by_angle * by_angle
-        pressure_variance = 2.0 * of_tension * force_by_total**2 + of_angle * force_by_angle**2
-        pressure_variance += (noise.pressure * area) ** 2
-        beyond = pressure * area - total * force - covariance / variance * excess
+        pressure_variance = of_tension * (force.behind**2 + force.ahead**2)
+        pressure_variance += of_angle * force_by_angle**2 + (noise.pressure * area) ** 2
+        beyond = pressure * area - total * slopes.normal - covariance / variance * excess
         pressure_variance -= covariance**2 / variance
         pressure_standardised = beyond / np.sqrt(pressure_variance)
+    side: Any = slip.side
     return BoundaryDistance(excess, standardised, pressure_standardised, side)

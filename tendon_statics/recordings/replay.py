@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics import JointDesign, StickSlipTracker, TensionError, TrackedState
+from ..physics import Equilibrium, JointDesign, StickSlipTracker, TensionError
 from ..physics.admissible import check_bend_angle
 from ..physics.batch import solve_batch
 from .progress import Progress, unseen
@@ -175,7 +175,7 @@ def _tracked(
     return np.array(regimes), np.array(rows).reshape(-1, 5).T, np.array(assured)
 
 
-def _estimates(result: TrackedState, tension_stddev: float) -> tuple[float, float, float, float]:
+def _estimates(result: Equilibrium, tension_stddev: float) -> tuple[float, float, float, float]:
     return (
         _number(result.bend_angle),
         _number(result.bend_angle_stddev(tension_stddev)),

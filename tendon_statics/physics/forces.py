@@ -1,0 +1,108 @@
+"""The forces on the joint surface, and what Eqs. (1) and (2) say to them."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from .design import JointDesign
+from .slip import Slip, SlipPoint
+
+
+class ContactCoefficients(NamedTuple):
+    """Integrals of a unit pressure and a unit shear over the contact arc, in m."""
+
+    pressure_x: float
+    """C_FX = C sin(β + θ)"""
+    pressure_z: float
+    """C_FZ = C cos(β + θ)"""
+    friction_x: float
+    """C_fX = C cos(β + θ)"""
+    friction_z: float
+    """C_fZ = C sin(β + θ)"""
+
+
+def contact_coefficients(design: JointDesign, bend_angle: float) -> ContactCoefficients:
+    """Contact coefficients of the paper's Eq. (4) at a bend angle in rad.
+
+    The contact zone turns with the unit and spans θ1 + θ to θ2 + θ.
+    """
+    phi = design.contact_centre_angle + bend_angle
+    sin_part = design.contact_length * math.sin(phi)
+    cos_part = design.contact_length * math.cos(phi)
+    return ContactCoefficients(
+        pressure_x=sin_part, pressure_z=cos_part, friction_x=cos_part, friction_z=sin_part
+    )
+
+
+class ContactForces(NamedTuple):
+    """Forces on the joint surface in the joint frame, in N; Eqs. (1) and (2)."""
+
+    pressure_x: Any
+    """F_FX, pressure-induced, along X"""
+    pressure_z: Any
+    """F_FZ, pressure-induced, along Z"""
+    friction_x: Any
+    """F_fX, friction, against X; so the paper counts it"""
+    friction_z: Any
+    """F_fZ, friction, along Z"""
+
+
+class ForceRemainder(NamedTuple):
+    """What Eqs. (1) and (2) leave over, one by one, in N.
+
+    Zero but for rounding where a contact law meets both. The paper's merged law asks only for
+    their squares to add up, so this is that law's own error bar.
+    """
+
+    x: Any
+    """(N − T) sin θ − F_fX + P_x"""
+    z: Any
+    """(N − T) cos θ + F_fZ + P_z"""
+
+
+class Contact(NamedTuple):
+    """The contact between unit and ball, held against Eqs. (1) and (2); floats, or arrays."""
+
+    normal_force: Any
+    """N in N"""
+    forces: ContactForces
+    remainder: ForceRemainder
+    consistent: Any
+    """Whether Eqs. (1) and (2) ask for such forces"""
+
+
+def contact_at(slip: Slip, point: SlipPoint, friction: Any) -> Contact:
+    """Return the contact of a unit at a point of its slip function.
+
+    Parameters
+    ----------
+    friction : float
+        Moment that friction takes up in units of r T: M, or K where friction is at its limit and a
+        stop takes the rest, as a couple.
+    """
+    shares = slip.law.contact(slip.load, point.cosine, point.sine, friction)
+    total, share = slip.total, slip.load.share
+    cosine, sine = point.turn
+
+    def to_frame(along: Any, across: Any) -> tuple[Any, Any]:
+        """From the unit's axis, and across it to the side of slip, to X and Z."""
+        return (
+            slip.side * total * (along * sine + across * cosine),
+            total * (along * cosine - across * sine),
+        )
+
+    (balanced, pressed), (lifted, dragged) = shares.balanced, shares.friction
+    pressure_x, pressure_z = to_frame(*shares.pressure)
+    friction_x, friction_z = to_frame(lifted, dragged)
+    return Contact(
+        total * shares.normal,
+        ContactForces(pressure_x, pressure_z, -friction_x, friction_z),
+        ForceRemainder(
+            *to_frame(
+                balanced + lifted - 1.0 - share * point.cosine,
+                pressed + dragged + share * point.sine,
+            )
+        ),
+        shares.consistent,
+    )

@@ -1,0 +1,116 @@
+"""How angle and pressure follow tensions, tilt and design, to first order."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from .contact.law import NormalSlopes
+from .slip import Slip, SlipPoint
+
+
+class TensionGradient(NamedTuple):
+    """Derivatives of one quantity by the two cable tensions."""
+
+    tension_l: Any
+    tension_s: Any
+
+    def stddev(self, tension_stddev: float) -> float:
+        """Standard deviation of the quantity, to first order.
+
+        Parameters
+        ----------
+        tension_stddev : float
+            Standard deviation of each tension in N, the two independent.
+        """
+        return tension_stddev * math.hypot(self.tension_l, self.tension_s)
+
+
+def stddev_of(gradient: TensionGradient | None, tension_stddev: float) -> float | None:
+    """Return `TensionGradient.stddev` where there is a gradient, else None."""
+    return None if gradient is None else gradient.stddev(tension_stddev)
+
+
+def finite(gradient: TensionGradient) -> TensionGradient | None:
+    """Return a gradient if it is one of finite numbers, else None."""
+    by_l, by_s = gradient
+    return gradient if math.isfinite(by_l) and math.isfinite(by_s) else None
+
+
+class ByCable(NamedTuple):
+    """Derivatives by the tension of the cable behind the unit and of that ahead of it."""
+
+    behind: Any
+    ahead: Any
+
+
+def slip_by_tensions(slip: Slip, point: SlipPoint, lever: float) -> ByCable:
+    """∂g/∂T in units of r, per N; floats, or arrays of one shape.
+
+    Parameters
+    ----------
+    lever : float
+        (r + δ) / r.
+    """
+    share = slip.load.share
+    common = share * point.by_share - point.moment
+    return ByCable((common - lever) / slip.total, (common + lever) / slip.total)
+
+
+def angle_by_tensions(slip: Slip, point: SlipPoint, lever: float) -> ByCable:
+    """∂θ/∂T of the root of g in rad/N, ahead."""
+    of_slip = slip_by_tensions(slip, point, lever)
+    return ByCable(-of_slip.behind / point.slope, -of_slip.ahead / point.slope)
+
+
+def root_gradient(slip: Slip, point: SlipPoint, lever: float) -> TensionGradient | None:
+    """∂θ/∂T of a root of g in rad/N; None where it is infinite."""
+    if point.slope == 0.0:
+        return None
+    return finite(of_sides(slip.side, angle_by_tensions(slip, point, lever), slip.side))
+
+
+def normal_by_tensions(
+    slip: Slip,
+    point: SlipPoint,
+    normal: NormalSlopes,
+    lever: float,
+    *,
+    angle: ByCable,
+    at_limit: Any,
+) -> ByCable:
+    """∂N/∂T.
+
+    Parameters
+    ----------
+    lever : float
+        (r + δ) / r.
+    angle : ByCable
+        ∂θ/∂T in rad/N, ahead; zeros for a unit that stays where it is.
+    at_limit : bool
+        Whether friction is at its limit; otherwise it takes up the moment.
+    """
+    share = slip.load.share
+    found = []
+    for sign, by_angle in ((-1.0, angle.behind), (1.0, angle.ahead)):
+        turned = slip.total * by_angle
+        limit = point.by_tilt * turned - share * point.by_share
+        held = sign * lever - point.moment
+        moment = at_limit * limit + (1 - at_limit) * held
+        found.append(
+            normal.normal
+            - share * normal.by_share
+            + normal.by_tilt * turned
+            + normal.by_moment * moment
+        )
+    return ByCable(*found)
+
+
+def of_sides(side: Any, by_cable: ByCable, sign: Any = 1.0) -> TensionGradient:
+    """Derivatives by T_l and T_s; `sign` turns what is counted ahead into what is towards s."""
+    towards_s = side > 0.0
+    behind, ahead = by_cable
+    return TensionGradient(
+        sign * (towards_s * behind + (1 - towards_s) * ahead),
+        sign * (towards_s * ahead + (1 - towards_s) * behind),
+    )
