@@ -149,7 +149,7 @@ def test_design_shows_every_value():
     shown = run('design').stdout
     for name, value in asdict(PRELIMINARY).items():
         assert f'`design.{name}`' in shown
-        assert f'{value:.7g}' in shown
+        assert (value if isinstance(value, str) else f'{value:.7g}') in shown
 
 
 @pytest.mark.parametrize(
