@@ -218,6 +218,19 @@ def test_of_a_truncated_file_the_beginning_is_read(tmp_path, plugin, share):
     assert 'truncated or damaged' in recording.damage_summary
 
 
+def test_what_is_missing_of_a_torn_page_does_not_come_out_as_zeros(tmp_path):
+    """Only what was recorded is data; 4096 is the size of a page."""
+    file = write_bag(tmp_path / 'bag', session(300), 'SQLITE3')
+    recorded = set(load_recording(file).tensions())
+    content = file.read_bytes()
+    whole = len(content) // 4096 * 4096
+    for size in range(whole - 6 * 4096, whole, 97):
+        file.write_bytes(content[:size])
+        recording = load_recording(file)
+        assert set(recording.tensions()) <= recorded, size
+        assert 'damaged' in recording.damage_summary
+
+
 @pytest.fixture
 def chunks(tmp_path):
     """An MCAP file of 500 messages, and the index of its chunks."""
