@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from designs import PRELIMINARY, cases, random_cases
-from hypothesis import given, settings
+from hypothesis import given
+from thoroughness import examples
 
 from tendon_statics.physics.array_roots import ArraySlipEquation
 from tendon_statics.physics.roots import BEND_ANGLE_TOLERANCE, SlipEquation
@@ -19,7 +20,7 @@ def both(case):
 
 
 @given(cases())
-@settings(max_examples=300)
+@examples(300)
 def test_at_the_quarter_turns_the_two_have_the_same_bits(case):
     """A last bit that differs would make a root at the end of the range a matter of chance."""
     array, scalar = both(case)

@@ -5,14 +5,15 @@ import math
 
 import pytest
 from designs import PRELIMINARY, cases, random_cases
-from hypothesis import given, settings
+from hypothesis import given
+from thoroughness import examples
 
 from tendon_statics import JointDesign
 from tendon_statics.physics.roots import BEND_ANGLE_TOLERANCE, SlipEquation
 
 
 @given(cases())
-@settings(max_examples=200)
+@examples(200)
 def test_brackets_hold_every_sign_change_of_a_fine_grid(case):
     """On the whole range, both sides of zero."""
     design, tension_l, tension_s = case
