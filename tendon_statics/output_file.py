@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
+import secrets
 import stat
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -30,11 +30,12 @@ def output_file(path: Path) -> Iterator[Path]:
     try:
         if path.exists() and not path.is_file():
             raise OutputError(f'{path}: it cannot be written: it is not a file')
-        handle, name = tempfile.mkstemp(path.suffix, f'.{path.stem}-', path.parent)
-        temporary = Path(name)
+        # Named before it is made: an interruption may come as soon as it is there.
+        temporary = path.with_name(f'.{path.stem}-{secrets.token_hex(8)}{path.suffix}')
         try:
-            os.fchmod(handle, _mode(path))
-            os.close(handle)
+            mode = _mode(path)
+            os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600))
+            temporary.chmod(mode)
             yield temporary
             with temporary.open('rb') as written:
                 os.fsync(written.fileno())

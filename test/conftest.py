@@ -1,17 +1,17 @@
-"""Keeps every test on this machine and in a ROS domain of its own run."""
+"""Keeps every test on this machine and in a ROS domain of its own worker."""
 
 import os
 
 import pytest
-from hypothesis import settings
-
-# No test is timed. In CI the same examples come each time; elsewhere each run looks for new ones.
-settings.register_profile('local', deadline=None)
-settings.register_profile('ci', deadline=None, derandomize=True)
-settings.load_profile('ci' if os.environ.get('CI') else 'local')
+import thoroughness  # noqa: F401  which chooses hypothesis's profile
 
 # Without it `Float64(data=3)` is silently taken.
 os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
+
+
+def pytest_xdist_auto_num_workers():
+    """Two workers a core, since tests of the node mostly wait for one another's processes."""
+    return 2 * len(os.sched_getaffinity(0))
 
 
 def pytest_collection_modifyitems(items):
@@ -23,7 +23,10 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope='session', autouse=True)
 def ros_domain():
-    """Take a ROS domain that no other run on this machine has, and hold it to the end."""
+    """Take a ROS domain that nobody else on this machine has, and hold it to the end.
+
+    Each worker of a run has one.
+    """
     from ros_domain import own_domain
 
     with own_domain() as domain:

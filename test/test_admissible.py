@@ -6,8 +6,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from designs import PRELIMINARY, cases
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
+from thoroughness import examples
 
 from tendon_statics import JointDesign, Regime, TensionError, solve
 from tendon_statics.physics import BendAngleError, admissible_angles, slip_margin
@@ -35,7 +36,7 @@ def oracle(design: JointDesign, tension_l: float, tension_s: float, bend_angle: 
 
 
 @given(cases())
-@settings(max_examples=150)
+@examples(150)
 def test_the_intervals_are_those_of_the_oracle(case):
     design, tension_l, tension_s = case
     assume(abs(design.friction_coefficient - 1.0) > 1e-3)
@@ -75,7 +76,7 @@ def test_a_root_next_to_the_stop_ends_an_interval(mirrored):
 
 
 @given(cases(), st.floats(-1.0, 1.0))
-@settings(max_examples=300)
+@examples(300)
 def test_the_margin_is_within_one_just_where_the_angle_is_admissible(case, share):
     design, tension_l, tension_s = case
     angle = share * design.max_bend_angle
@@ -86,7 +87,7 @@ def test_the_margin_is_within_one_just_where_the_angle_is_admissible(case, share
 
 
 @given(cases())
-@settings(max_examples=300)
+@examples(300)
 def test_every_root_is_an_end_and_has_margin_one(case):
     design, tension_l, tension_s = case
     equilibrium = solve(design, tension_l, tension_s)

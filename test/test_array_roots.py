@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from brute import random_case
 from designs import PRELIMINARY, cases, random_cases
-from hypothesis import given, settings
+from hypothesis import given
+from thoroughness import examples
 
 from tendon_statics.physics.array_roots import array_brackets, array_refine
 from tendon_statics.physics.batch import _facing_slips, _Rows
@@ -22,7 +23,7 @@ def both(design, tension_l, tension_s, load=UPRIGHT):
 
 
 @given(cases())
-@settings(max_examples=300)
+@examples(300)
 def test_at_the_ends_of_the_range_the_two_have_the_same_bits(case):
     """A last bit that differs would make a root there a matter of chance."""
     rows, slip = both(*case)

@@ -9,8 +9,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from designs import PRELIMINARY, random_cases, random_design, random_tensions, tensions_at_slip
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from thoroughness import examples
 
 from tendon_statics import JointDesign, Regime, TensionError, solve, solve_batch
 from tendon_statics.physics import batch as batch_module
@@ -131,14 +132,14 @@ def designs_with_pairs(draw: st.DrawFn):
 
 
 @given(designs_with_pairs())
-@settings(max_examples=150)
+@examples(150)
 def test_a_batch_is_a_loop_of_solve(case):
     design, pairs = case
     assert_is_a_loop_of_solve(design, *pairs.T)
 
 
 @given(designs_with_pairs())
-@settings(max_examples=30)
+@examples(30)
 def test_mirrored_pairs_give_the_mirror_image(case):
     design, pairs = case
     tension_l, tension_s = pairs[pairs[:, 0] != pairs[:, 1]].T
@@ -156,7 +157,7 @@ def test_mirrored_pairs_give_the_mirror_image(case):
 
 
 @given(designs_with_pairs(), st.floats(-15.0, -6.0), st.floats(0.05, 0.95))
-@settings(max_examples=100)
+@examples(100)
 def test_pairs_that_hardly_exceed_the_weight_keep_their_digits(case, exponent, share):
     design, _ = case
     total = design.weight * (1.0 + 10.0**exponent)
@@ -172,7 +173,7 @@ def test_pairs_that_hardly_exceed_the_weight_keep_their_digits(case, exponent, s
 
 
 @given(designs_with_pairs(), st.floats(0.01, 30.0))
-@settings(max_examples=100)
+@examples(100)
 def test_a_root_at_an_end_of_the_range_is_judged_as_by_solve(case, spare):
     """There the last bit decides the regime, so it has to be the same."""
     design, _ = case

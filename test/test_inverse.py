@@ -5,8 +5,9 @@ from collections import Counter
 
 import pytest
 from designs import PRELIMINARY, cases, random_cases
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
+from thoroughness import examples
 
 from tendon_statics import Regime, solve
 from tendon_statics.physics import (
@@ -26,7 +27,7 @@ def test_the_published_case():
 
 
 @given(cases(), st.floats(-1.0, 1.0), st.floats(1.01, 50.0))
-@settings(max_examples=300)
+@examples(300)
 def test_a_round_trip_by_total_tension(case, share, factor):
     design, _, _ = case
     angle, total = share * design.max_bend_angle, factor * design.weight
@@ -41,7 +42,7 @@ def test_a_round_trip_by_total_tension(case, share, factor):
 
 
 @given(cases())
-@settings(max_examples=300)
+@examples(300)
 def test_a_round_trip_by_pressure(case):
     """From a solution back to its tensions, where it is the only one."""
     design, tension_l, tension_s = case

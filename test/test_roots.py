@@ -18,7 +18,7 @@ def slip_of(design, tension_l, tension_s):
 
 
 @given(cases())
-@settings(max_examples=200)
+@examples(200)
 def test_brackets_hold_every_sign_change_of_a_fine_grid(case):
     """On the whole range, both sides of zero."""
     design, tension_l, tension_s = case

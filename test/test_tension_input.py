@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import sys
 
 import pytest
 from builtin_interfaces.msg import Time
@@ -191,3 +192,32 @@ def test_with_sensor_data_qos_any_driver_fits():
     ):
         wait_for('estimates', lambda: len(listener.estimates) > 10)
         assert not math.isnan(listener.newest_estimate().tension_l)
+
+
+def test_whatever_a_middleware_leaves_out_of_a_messages_info_is_optional(listener):
+    """As one may that does not number messages, or has no clock: left out here by turns."""
+    code = (
+        'import itertools, sys\n'
+        'from rclpy.impl.implementation_singleton import rclpy_implementation\n'
+        'from tendon_statics.node.program import estimator\n'
+        'Subscription = rclpy_implementation.Subscription\n'
+        'take, kinds = Subscription.take_message, itertools.cycle(range(5))\n'
+        'def take_less(*arguments):\n'
+        '    taken = take(*arguments)\n'
+        '    if taken is None:\n'
+        '        return None\n'
+        '    message, info = taken\n'
+        '    left = [{}, dict.fromkeys(info), dict.fromkeys(info, 0),\n'
+        '            {**info, "publication_sequence_number": None},\n'
+        '            {**info, "received_timestamp": None}]\n'
+        '    return message, left[next(kinds)]\n'
+        'Subscription.take_message = take_less\n'
+        'sys.exit(estimator())\n'
+    )
+    with Program.running_command([sys.executable, '-c', code]) as program:
+        listener.connect(program)
+        for _ in range(10):
+            assert listener.answer(*SLIPPING) == 'equilibrium'
+            assert listener.newest_estimate().header.stamp.sec > 0
+        assert latest_values(listener)['messages lost on the way'] == 'not counted'
+        assert program.end() == 0

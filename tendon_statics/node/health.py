@@ -42,7 +42,7 @@ class Health:
     """
 
     def __init__(self, *, counts_lost: bool = True) -> None:
-        self._counts_lost = counts_lost
+        self.counts_lost = counts_lost
         self.received = 0
         self.solved = 0
         self.lost = 0
@@ -162,7 +162,7 @@ class Health:
             'longest solve time [ms]': f'{self._longest_solve * 1e3:.3f}' if solved else '',
             'messages received': str(self.received),
             'pairs solved': str(self.solved),
-            'messages lost on the way': str(self.lost) if self._counts_lost else 'not counted',
+            'messages lost on the way': str(self.lost) if self.counts_lost else 'not counted',
             **{f'dropped: {reason.value}': str(self.dropped[reason]) for reason in Reason},
             'last drop': self.last_drop,
             **{f'publishers on {topic}': str(count) for topic, count in publishers.items()},

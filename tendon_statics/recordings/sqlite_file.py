@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import sqlite3
 import tempfile
@@ -24,6 +25,12 @@ JOURNAL_MAGIC = b'\xd9\xd5\x05\xf9\x20\xa1\x63\xd7'
 
 WAL_HEADER, WAL_PAGE_HEADER = 32, 24
 """Bytes at the beginning of a log, and before each page in it"""
+
+PAGE_SIZE = slice(16, 18)
+"""Where a file says how large its pages are; 1 stands for `LARGEST_PAGE`"""
+
+SMALLEST_PAGE, LARGEST_PAGE = 512, 65536
+"""Bytes"""
 
 
 def sqlite_records(path: Path, types: dict[str, str], damage: list[str]) -> Iterator[Record]:
@@ -75,7 +82,7 @@ def sqlite_records(path: Path, types: dict[str, str], damage: list[str]) -> Iter
 @contextmanager
 def _opened(path: Path) -> Iterator[sqlite3.Connection]:
     """Open a file without changing it or leaving anything beside it."""
-    with _with_journals(path) as uri:
+    with _readable(path) as uri:
         try:
             database = sqlite3.connect(uri, uri=True)
         except sqlite3.Error as error:
@@ -87,17 +94,34 @@ def _opened(path: Path) -> Iterator[sqlite3.Connection]:
 
 
 @contextmanager
-def _with_journals(path: Path) -> Iterator[str]:
-    """Give the URI of a file, or of a copy of it into which SQLite may write its journals."""
+def _readable(path: Path) -> Iterator[str]:
+    """Give the URI of a file, or of a copy that is not as it is.
+
+    Into a copy SQLite may write the journals. And a copy can do without a page at the end that is
+    torn: SQLite would read what is missing of it as zeros, which would come out as tensions.
+    """
     endings = [ending for ending in (WAL, JOURNAL) if _content(path, ending)]
-    if not endings:
+    torn = _torn_bytes(path)
+    if not endings and not torn:
         yield f'{path.absolute().as_uri()}?mode=ro&immutable=1'
         return
     with tempfile.TemporaryDirectory(prefix='tendon-statics-') as folder:
         copy = Path(folder, path.name)
         for ending in ('', *endings):
             shutil.copyfile(f'{path}{ending}', f'{copy}{ending}')
+        os.truncate(copy, copy.stat().st_size - torn)
         yield copy.as_uri()
+
+
+def _torn_bytes(path: Path) -> int:
+    """Bytes of a file after its last whole page."""
+    with path.open('rb') as file:
+        page_size = int.from_bytes(file.read(PAGE_SIZE.stop)[PAGE_SIZE], 'big')
+    if page_size == 1:
+        page_size = LARGEST_PAGE
+    if page_size & (page_size - 1) or not SMALLEST_PAGE <= page_size <= LARGEST_PAGE:
+        return 0  # SQLite will say what it is.
+    return path.stat().st_size % page_size
 
 
 def _unfinished(database: sqlite3.Connection, path: Path) -> Iterator[str]:
