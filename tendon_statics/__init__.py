@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 from . import physics
-from .design_file import default_design_path, load_design, save_design
+from .files.design_file import default_design_path, load_design, save_design
 from .physics import (
     CalibrationError,
     DesignError,
@@ -17,8 +17,8 @@ from .recordings.errors import RecordingError
 
 if TYPE_CHECKING:
     from .physics import Calibration, EquilibriumBatch, calibrate, solve_batch
-    from .recordings.load import load_recording
     from .recordings.motion import mark_motion
+    from .recordings.reading.load import load_recording
     from .recordings.recording import Recording
 
 __all__ = [
@@ -47,7 +47,7 @@ def __getattr__(name: str) -> Any:
     if name in ('Calibration', 'EquilibriumBatch', 'calibrate', 'solve_batch'):
         return getattr(physics, name)
     if name == 'load_recording':
-        from .recordings.load import load_recording
+        from .recordings.reading.load import load_recording
 
         return load_recording
     if name == 'mark_motion':

@@ -11,8 +11,8 @@ from bags import ORIGIN, write_bag
 from programs import assert_refused, run
 
 from tendon_statics.recordings.errors import RecordingError
-from tendon_statics.recordings.load import load_recording
-from tendon_statics.recordings.topics import BagTopics
+from tendon_statics.recordings.reading.load import load_recording
+from tendon_statics.recordings.reading.topics import BagTopics
 
 
 def session(count=10):

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from tendon_statics.installed_files import installed_config
+from tendon_statics.files.installed_files import installed_config
 from tendon_statics.recordings.errors import RecordingError
-from tendon_statics.recordings.load import load_recording
+from tendon_statics.recordings.reading.load import load_recording
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tendon_statics import DesignError, default_design_path, load_design, save_design
-from tendon_statics.output_file import OutputError
+from tendon_statics.files.output_file import OutputError
 from tendon_statics.physics import paper
 
 TEXT = default_design_path().read_text(encoding='utf-8')

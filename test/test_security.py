@@ -12,7 +12,7 @@ from list_permissions import POLICY, full_name, permissions
 from make_docs import ROOT
 from rclpy.node import Node
 
-from tendon_statics.installed_files import installed_config
+from tendon_statics.files.installed_files import installed_config
 from tendon_statics.node.estimator import Estimator
 from tendon_statics.node.pulley_driver import PulleyDriver
 from tendon_statics.node.tension_kinds import TENSION_SOURCES

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tendon_statics.yaml_file import YamlFileError, read_yaml
+from tendon_statics.files.yaml_file import YamlFileError, read_yaml
 
 
 @pytest.mark.parametrize(

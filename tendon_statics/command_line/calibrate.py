@@ -6,8 +6,8 @@ import argparse
 from datetime import date
 from pathlib import Path
 
-from ..design_file import save_design
-from ..output_file import OutputError
+from ..files.design_file import save_design
+from ..files.output_file import OutputError
 from ..recordings.recording import Recording
 from .calibration_options import add_calibration_options, calibration_from, states_text
 from .calibration_text import calibration_text

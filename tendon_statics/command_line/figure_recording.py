@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..physics import JointDesign, Regime
-from ..recordings.replay import INVALID, Replay
+from ..recordings.replay.estimates import INVALID, Replay
 from .figures import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION
 from .options import add_design_option, add_tension_stddev_option, design_from
 from .recording_options import add_recording_options, recording_from, report_damage

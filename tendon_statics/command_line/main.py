@@ -11,7 +11,7 @@ from contextlib import suppress
 from importlib import import_module
 from typing import NoReturn
 
-from ..output_file import OutputError
+from ..files.output_file import OutputError
 from ..physics.errors import (
     BendAngleError,
     CalibrationError,

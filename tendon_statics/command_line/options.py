@@ -6,7 +6,7 @@ import argparse
 import json
 import math
 
-from ..design_file import default_design_path, load_design
+from ..files.design_file import default_design_path, load_design
 from ..physics import JointDesign
 
 

@@ -6,9 +6,9 @@ import argparse
 import sys
 from pathlib import Path
 
-from ..recordings.load import ENDINGS, load_recording
+from ..recordings.reading.load import ENDINGS, load_recording
+from ..recordings.reading.topics import FORCE_COMPONENTS, BagTopics
 from ..recordings.recording import Recording
-from ..recordings.topics import FORCE_COMPONENTS, BagTopics
 from .progress import with_progress
 
 DEFAULTS = BagTopics()

@@ -6,13 +6,13 @@ import argparse
 from collections.abc import Callable
 from pathlib import Path
 
-from ..output_file import OutputError
+from ..files.output_file import OutputError
 from ..physics import JointDesign
-from ..recordings.bag_output import write_bag
 from ..recordings.progress import Progress
 from ..recordings.recording import Recording
-from ..recordings.replay import ESTIMATIONS, Replay, replay
-from ..recordings.table_output import write_table
+from ..recordings.replay.bag_output import write_bag
+from ..recordings.replay.estimates import ESTIMATIONS, Replay, replay
+from ..recordings.replay.table_output import write_table
 from .options import add_design_option, add_tension_stddev_option, design_from
 from .progress import with_progress
 from .recording_options import add_recording_options, recording_from, report_damage

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ..recordings.recording import Recording
-from ..recordings.replay import Replay
+from ..recordings.replay.estimates import Replay
 from .tables import Facts
 
 

@@ -11,7 +11,7 @@ from importlib.metadata import version
 from pathlib import Path
 from string import Template
 
-from ..output_file import OutputError, output_file
+from ..files.output_file import OutputError, output_file
 from ..physics import Calibration, CalibrationError, JointDesign, design_parameters
 from ..recordings.errors import RecordingError
 from ..recordings.recording import Recording

@@ -8,9 +8,9 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from ..recordings.load import load_recording
-from ..recordings.replay import replay
-from ..recordings.table_output import write_csv
+from ..recordings.reading.load import load_recording
+from ..recordings.replay.estimates import replay
+from ..recordings.replay.table_output import write_csv
 from .options import add_design_option, design_from
 from .progress import with_progress
 from .recording_options import report_damage

@@ -9,7 +9,7 @@ from typing import Any
 
 from rclpy.node import Node
 
-from ..design_file import default_design_path, load_design
+from ..files.design_file import default_design_path, load_design
 from ..physics import BendAngleError, DesignError, JointDesign, design_parameters
 from ..physics.admissible import check_bend_angle
 from ..physics.solver import MAX_TENSION

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from .errors import RecordingError
+from ..errors import RecordingError
 
 _TENSION = {'N': 1.0, 'mN': 1e-3, 'kN': 1e3, 'gf': 9.80665e-3, 'kgf': 9.80665}
 UNITS = {

@@ -8,10 +8,10 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
+from ..errors import RecordingError
+from ..progress import Progress, unseen
+from ..recording import Recording
 from .columns import Column, find_columns
-from .errors import RecordingError
-from .progress import Progress, unseen
-from .recording import Recording
 
 LINE_ENDS = (b'\n', b'\r')
 

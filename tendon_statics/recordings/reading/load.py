@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .errors import RecordingError, one_line
-from .progress import Progress, unseen
-from .recording import Recording
+from ..errors import RecordingError, one_line
+from ..progress import Progress, unseen
+from ..recording import Recording
 from .topics import BagTopics
 
 ENDINGS = ('.csv', '.parquet', '.mcap', '.db3')

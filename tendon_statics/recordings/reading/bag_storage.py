@@ -7,11 +7,11 @@ from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
+from ..errors import RecordingError
+from ..libraries import needed
+from ..progress import Progress, unseen
 from .bag_record import PURPOSE, Record
-from .errors import RecordingError
-from .libraries import needed
 from .mcap_file import mcap_records
-from .progress import Progress, unseen
 from .sqlite_file import sqlite_records
 
 ZSTD_MAGIC = b'\x28\xb5\x2f\xfd'

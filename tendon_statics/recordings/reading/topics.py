@@ -6,7 +6,7 @@ import dataclasses
 import math
 from collections.abc import Sequence
 
-from .errors import RecordingError
+from ..errors import RecordingError
 
 FORCE_COMPONENTS = ('x', 'y', 'z', 'norm')
 

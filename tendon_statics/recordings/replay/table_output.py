@@ -10,9 +10,9 @@ from typing import Any, TextIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ..output_file import OutputError, output_file
-from .libraries import needed
-from .progress import Progress, unseen
+from ...files.output_file import OutputError, output_file
+from ..libraries import needed
+from ..progress import Progress, unseen
 
 Columns = Mapping[str, NDArray[Any]]
 

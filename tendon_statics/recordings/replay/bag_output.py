@@ -9,12 +9,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..output_file import OutputError, output_file
-from .bag import ARRAY, DEFAULT_BEND_ANGLE, DEFAULT_PRESSURE, NUMBER, TEXT
-from .libraries import needed
-from .progress import Progress, unseen
-from .recording import Floats, Recording
-from .replay import Replay
+from ...files.output_file import OutputError, output_file
+from ..libraries import needed
+from ..progress import Progress, unseen
+from ..reading.bag import ARRAY, DEFAULT_BEND_ANGLE, DEFAULT_PRESSURE, NUMBER, TEXT
+from ..recording import Floats, Recording
+from .estimates import Replay
 
 BOOLEAN = 'std_msgs/msg/Bool'
 

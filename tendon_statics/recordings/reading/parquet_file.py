@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
+from ..errors import RecordingError
+from ..libraries import needed
+from ..progress import Progress, unseen
+from ..recording import Floats, Recording
 from .columns import Column, find_columns
-from .errors import RecordingError
-from .libraries import needed
-from .progress import Progress, unseen
-from .recording import Floats, Recording
 
 
 def load_parquet(path: Path, progress: Progress = unseen) -> Recording:

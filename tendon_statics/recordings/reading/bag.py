@@ -10,10 +10,10 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ..errors import RecordingError
+from ..progress import Progress, unseen
+from ..recording import Floats, Recording
 from .bag_storage import END_OF_TIME, Messages, read_messages
-from .errors import RecordingError
-from .progress import Progress, unseen
-from .recording import Floats, Recording
 from .topics import BagTopics, full_name
 
 DEFAULT_BEND_ANGLE = '/measured_bend_angle'

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from .errors import RecordingError
-from .recording import QUANTITIES
+from ..errors import RecordingError
+from ..recording import QUANTITIES
 from .units import parse_column
 
 REQUIRED = ('tension_l', 'tension_s')

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from ..physics.design import JointDesign, design_parameters
+from ..physics.errors import DesignError
 from .installed_files import installed_config
 from .output_file import output_file
 from .parameter_file import parameter_blocks
-from .physics.design import JointDesign, design_parameters
-from .physics.errors import DesignError
 from .yaml_file import YamlFileError, read_yaml
 
 _PREFIX = 'design.'

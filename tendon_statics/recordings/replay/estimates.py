@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics import JointDesign, StickSlipTracker, TensionError, TrackedState
-from ..physics.admissible import check_bend_angle
-from ..physics.batch import solve_batch
-from .progress import Progress, unseen
-from .recording import Floats, Recording
+from ...physics import JointDesign, StickSlipTracker, TensionError, TrackedState
+from ...physics.admissible import check_bend_angle
+from ...physics.batch import solve_batch
+from ..progress import Progress, unseen
+from ..recording import Floats, Recording
 
 ESTIMATIONS = ('equilibrium', 'tracking')
 

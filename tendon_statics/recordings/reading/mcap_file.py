@@ -10,9 +10,9 @@ from io import BytesIO
 from pathlib import Path
 from typing import IO, Any
 
+from ..errors import RecordingError
+from ..libraries import needed
 from .bag_record import PURPOSE, UNKNOWN_TYPE, Record
-from .errors import RecordingError
-from .libraries import needed
 
 MAGIC = b'\x89MCAP0\r\n'
 """What a file begins and ends with"""

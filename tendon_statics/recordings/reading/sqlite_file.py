@@ -10,8 +10,8 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any
 
+from ..errors import RecordingError
 from .bag_record import UNKNOWN_TYPE, Record
-from .errors import RecordingError
 
 WAL = '-wal'
 """Ending of the log in which SQLite keeps what has not yet come to the file itself"""
