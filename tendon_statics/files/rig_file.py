@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from ..joint_names import JointNameError, JointNames, check_joint_name, load_joint_names
-from ..node.tension_kinds import TENSION_SOURCES
 from ..physics.design import JointDesign
 from ..physics.errors import DesignError
 from ..recordings.errors import RecordingError
 from ..recordings.reading.load import load_recording
 from .design_file import load_design
+from .unit_parameters import TENSION_SOURCES
 from .yaml_file import YamlFileError, read_yaml
 
 

@@ -26,6 +26,7 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
+from ..files.number_parameter import SettingError
 from ..physics import (
     BendAngleError,
     Equilibrium,
@@ -36,7 +37,6 @@ from ..physics import (
 )
 from . import messages
 from .health import Health, Level
-from .number_parameter import SettingError
 from .outputs import INVALID, STALE, Outputs
 from .program import StartError
 from .settings import Settings, declare_settings, read_settings

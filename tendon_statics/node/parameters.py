@@ -9,23 +9,9 @@ from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescri
 from rclpy.exceptions import InvalidParameterValueException
 from rclpy.node import Node
 
-from .number_parameter import NumberParameter, SettingError
-from .tension_kinds import TENSION_SOURCES
+from ..files.number_parameter import NumberParameter, SettingError
+from ..files.unit_parameters import CABLES, TENSION_SOURCES
 from .tension_source import COMPONENTS
-
-CABLES = ('cable_l', 'cable_s')
-
-GAINS = tuple(
-    NumberParameter(
-        *(f'{cable}.gain', 1.0, -1e6, 1e6, 'N'),
-        'newtons per unit of what is measured: tension = gain * value + bias; not 0',
-    )
-    for cable in CABLES
-)
-BIASES = tuple(
-    NumberParameter(f'{cable}.bias', 0.0, -1e6, 1e6, 'N', 'tension at the measured value 0')
-    for cable in CABLES
-)
 
 
 def declare_fixed(node: Node, name: str, default: Any, description: str, **more: Any) -> Any:

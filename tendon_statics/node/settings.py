@@ -3,53 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from rclpy.node import Node
 
 from ..files.design_file import default_design_path, load_design
+from ..files.number_parameter import NumberParameter, SettingError
+from ..files.unit_parameters import NUMBERS
 from ..physics import BendAngleError, DesignError, JointDesign, design_parameters
 from ..physics.admissible import check_bend_angle
-from ..physics.solver import MAX_TENSION
-from .number_parameter import NumberParameter, SettingError
-from .parameters import BIASES, CABLES, GAINS, declare_number
+from .parameters import declare_number
 from .tension_source import Calibration
 
 PREFIX = 'design.'
-
-
-MAX_TENSIONS = tuple(
-    NumberParameter(
-        *(f'{cable}.max_tension', 1000.0, 0.001, MAX_TENSION, 'N'),
-        'above it a tension is implausible',
-    )
-    for cable in CABLES
-)
-
-NUMBERS = (
-    NumberParameter(
-        *('tension_stddev', 0.01, 0.0, 1000.0, 'N'),
-        'standard deviation of each measured tension, the two independent',
-    ),
-    NumberParameter(
-        *('initial_bend_angle', 0.0, -0.5 * math.pi, 0.5 * math.pi, 'rad'),
-        'where a tracked unit is at the start and after ~/reset, within its stops',
-    ),
-    NumberParameter(
-        *('input_timeout', 0.5, 0.001, 3600.0, 's'),
-        'without valid tensions for so long the input is stale',
-    ),
-    NumberParameter(
-        *('max_skew', 0.005, 0.0, 10.0, 's'),
-        'wrench_pair: most that the stamps of two load cells may differ in a pair',
-    ),
-    *GAINS,
-    *BIASES,
-    *MAX_TENSIONS,
-)
-"""Those that may change while the node runs, beside the design's"""
 
 
 @dataclasses.dataclass(frozen=True)
