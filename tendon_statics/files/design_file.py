@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 from ..physics.design import JointDesign, design_parameters
 from ..physics.errors import DesignError
 from .installed_files import installed_config
 from .output_file import output_file
-from .parameter_file import parameter_blocks
-from .yaml_file import YamlFileError, read_yaml
+from .parameter_file import (
+    ParameterFileError,
+    dotted_parameters,
+    parameter_blocks,
+    read_parameters,
+)
 
 _PREFIX = 'design.'
 
@@ -29,7 +33,7 @@ def load_design(path: str | Path) -> JointDesign:
     """
     path = Path(path)
     try:
-        designs = _designs(read_yaml(path))
+        designs = _designs(read_parameters(path))
         if not designs:
             raise DesignError(
                 'there is no design in it; it stands under "/**: ros__parameters: design:"'
@@ -37,14 +41,19 @@ def load_design(path: str | Path) -> JointDesign:
         if len(designs) > 1:
             raise DesignError(f'it has a design under each of {", ".join(designs)}; keep one')
         return JointDesign.from_mapping(next(iter(designs.values())))
-    except YamlFileError as error:
+    except ParameterFileError as error:
         raise DesignError(f'{path}: {error}') from None
     except DesignError as error:
         key = _PREFIX + error.key if error.key else ''
         raise DesignError(f'{path}: {"design." if error.key else ""}{error}', key=key) from None
 
 
-def save_design(path: str | Path, design: JointDesign, comment: str = '') -> None:
+def save_design(
+    path: str | Path,
+    design: JointDesign,
+    comment: str = '',
+    parameters: Mapping[str, object] | None = None,
+) -> None:
     """Write a design to a ROS parameter file that `load_design` and the node take.
 
     The numbers are written with all their digits.
@@ -53,14 +62,25 @@ def save_design(path: str | Path, design: JointDesign, comment: str = '') -> Non
     ----------
     comment : str
         Text at the beginning of the file.
+    parameters : mapping
+        What else the node is to take from it, by dotted name: numbers, texts, lists of these.
 
     Raises
     ------
     OutputError
         If the file cannot be written; what was there then stays.
     """
+    import json  # Here, for who only solves should not wait for it.
+
     lines = [f'# {line}'.rstrip() for line in comment.splitlines()]
-    lines += ['/**:', '  ros__parameters:', '    design:']
+    lines += ['/**:', '  ros__parameters:']
+    # JSON is YAML, but for numbers such as 1e-05, which ROS takes as Python writes them.
+    lines += [
+        f'    {name}: {json.dumps(value, ensure_ascii=False)}'
+        for name, value in (parameters or {}).items()
+        if not name.startswith(_PREFIX)
+    ]
+    lines.append('    design:')
     for parameter in design_parameters():
         entry = f'{parameter.name}: {getattr(design, parameter.name)!r}'
         unit = parameter.unit or '1'
@@ -83,23 +103,17 @@ def default_design_path() -> Path:
 def _designs(content: object) -> dict[str, dict[str, object]]:
     """Node name → the design given for it, for every node that has one."""
     found = {}
-    for name, parameters in parameter_blocks(content):
-        design: dict[str, object] = {}
-        for key, value in _flatten(parameters):
-            name_in_design = key.removeprefix(_PREFIX)
-            if name_in_design in design:
-                raise DesignError(f'{key} is given twice')
-            if key.startswith(_PREFIX):
-                design[name_in_design] = value
+    for name, block in parameter_blocks(content):
+        design = design_values(dotted_parameters(block))
         if design:
             found[name] = design
     return found
 
 
-def _flatten(parameters: object, prefix: str = '') -> Iterator[tuple[str, object]]:
-    """Dotted name and value of every parameter of a block."""
-    if isinstance(parameters, Mapping):
-        for key, value in parameters.items():
-            yield from _flatten(value, f'{prefix}.{key}' if prefix else str(key))
-    else:
-        yield prefix, parameters
+def design_values(parameters: Mapping[str, object]) -> dict[str, object]:
+    """Those parameters that are of the design, by their names in it."""
+    return {
+        name.removeprefix(_PREFIX): value
+        for name, value in parameters.items()
+        if name.startswith(_PREFIX)
+    }

@@ -11,13 +11,19 @@ class YamlFileError(ValueError):
     """A file is not valid YAML."""
 
 
-def read_yaml(path: Path) -> object:
+def read_yaml(path: Path, *, aliases: bool = True) -> object:
     """Read a YAML file; whole numbers become integers, all others floats.
+
+    Parameters
+    ----------
+    aliases : bool
+        Whether one part may stand for another, which ROS does not read in parameter files.
 
     Raises
     ------
     YamlFileError
-        If the file cannot be read or is not valid YAML; the text does not name the file.
+        If the file cannot be read, is not valid YAML, has a key twice, or a number that readers of
+        YAML differ in; the text does not name the file.
     """
     import yaml  # Here, so that the physics can be used where PyYAML is not installed.
 
@@ -39,6 +45,23 @@ def read_yaml(path: Path) -> object:
                     seen.add(key.value)
             return super().construct_mapping(node, deep)
 
+        def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
+            if not aliases and self.check_event(yaml.AliasEvent):
+                event = self.peek_event()
+                raise YamlFileError(
+                    f'*{event.anchor} in line {event.start_mark.line + 1} stands for another part '
+                    'of the file, which ROS does not read; write that part out'
+                )
+            return super().compose_node(parent, index)
+
+        def refuse_number(self, node: yaml.ScalarNode) -> None:
+            text = self.construct_scalar(node)
+            raise YamlFileError(
+                f'{text} in line {node.start_mark.line + 1} is another number to ROS, '
+                f'{_as_ros_reads(text)}, than to most readers; write decimal digits without a 0 '
+                'before them'
+            )
+
         def construct_number(self, node: yaml.ScalarNode) -> float:
             text = self.construct_scalar(node).lower()
             number = float(text.replace('.inf', 'inf').replace('.nan', 'nan'))
@@ -47,6 +70,13 @@ def read_yaml(path: Path) -> object:
 
     Loader.add_implicit_resolver(_NUMBER_TAG, _NUMBER, list('-+.0123456789'))
     Loader.add_constructor(_NUMBER_TAG, Loader.construct_number)
+    # Before all others: the first that fits counts.
+    for first in '-+0':
+        Loader.yaml_implicit_resolvers[first] = [
+            (_AMBIGUOUS_TAG, _AMBIGUOUS),
+            *Loader.yaml_implicit_resolvers.get(first, ()),
+        ]
+    Loader.add_constructor(_AMBIGUOUS_TAG, Loader.refuse_number)
     try:
         text = path.read_text(encoding='utf-8')
     except OSError as error:
@@ -75,3 +105,16 @@ _NUMBER = re.compile(
     r'^[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?$|^[-+]?\.(?:inf|Inf|INF)$'
     r'|^\.(?:nan|NaN|NAN)$'
 )
+
+_AMBIGUOUS_TAG = 'tag:yaml.org,2002:int'
+_AMBIGUOUS = re.compile(r'^[-+]?0(?:[0-9]+|[xX][0-9a-fA-F]+)$')
+
+
+def _as_ros_reads(text: str) -> str:
+    """What C's strtoll makes of an integer, with the base told by its first digits."""
+    sign, digits = ('-' if text.startswith('-') else ''), text.lstrip('+-')
+    base = 16 if digits[1] in 'xX' else 8
+    try:
+        return f'{sign}{int(digits, base)}'
+    except ValueError:
+        return f'{sign}{float(digits):.17g}'

@@ -1,241 +1,180 @@
-"""Recordings in ROS 2 bags: from messages on topics to samples."""
+"""Recordings in ROS bags: from messages on topics to samples."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ..errors import RecordingError
 from ..progress import Progress, unseen
-from ..recording import Floats, Recording
-from .bag_storage import END_OF_TIME, Messages, read_messages
-from .topics import BagTopics, full_name
+from ..recording import Recording
+from .bag_storage import END_OF_TIME, Message, Messages, read_messages
+from .bag_tensions import find_tensions, tension_samples
+from .bag_values import (
+    DYNAMIC,
+    JOINT_STATE,
+    NUMBER,
+    NUMBER_32,
+    TEXT,
+    joints_on,
+    messages_on,
+    position_of,
+)
+from .clock import Stamped, Times, common_clock
+from .topics import DEFAULT_PAIR, DEFAULT_TENSIONS, BagTopics, full_name
 
 DEFAULT_BEND_ANGLE = '/measured_bend_angle'
 DEFAULT_PRESSURE = '/measured_pressure'
-
-ARRAY = 'std_msgs/msg/Float64MultiArray'
-NUMBER = 'std_msgs/msg/Float64'
-TEXT = 'std_msgs/msg/String'
-JOINT_STATE = 'sensor_msgs/msg/JointState'
-WRENCH = 'geometry_msgs/msg/WrenchStamped'
-ESTIMATE = 'tendon_statics_interfaces/msg/Estimate'
-
-
-class _Series(NamedTuple):
-    """What one topic says, in the order of time."""
-
-    times: npt.NDArray[np.int64]
-    """ns"""
-    values: Sequence[Any]
+REPLAYED = '/replay/regime'
+"""Topic of a bag that `replay` has written, whose tensions are in N"""
 
 
 def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Recording:
-    """Read a bag, as `load_recording` does: one sample for each message of tensions.
+    """Read a bag, as `load_recording` does: one sample for each pair of tensions.
 
-    The time of a message is the stamp in its header, where it has one, else the time at which it
-    was recorded. Angle, pressure and state are those of the message nearest in time, if it is not
-    farther than `BagTopics.max_skew`; so is the second tension of a pair.
+    The samples stand in the order of recording, but for messages that came late. Their times are
+    by the clock that is chosen (`common_clock`). Angle, pressure and state are those of the
+    message nearest in time, if it is not farther than `BagTopics.max_skew`.
     """
-    required = [*topics.tensions, topics.bend_angle, topics.pressure, topics.state]
-    wanted = [*required, DEFAULT_BEND_ANGLE, DEFAULT_PRESSURE]
-    bag = read_messages(path, [full_name(name) for name in wanted if name], progress)
-    for name in filter(None, required):
+    required = [*(topics.tensions or ()), topics.bend_angle, topics.pressure, topics.state]
+    defaults = [DEFAULT_TENSIONS, *DEFAULT_PAIR, DEFAULT_BEND_ANGLE, DEFAULT_PRESSURE]
+    wanted = {full_name(name) for name in [*required, *defaults] if name}
+    bag = read_messages(path, wanted, progress)
+    names = _tension_topics(bag, topics)
+    for name in filter(None, [*names, *required]):
         if full_name(name) not in bag.types:
             there = ', '.join(f'{topic} ({kind})' for topic, kind in sorted(bag.types.items()))
+            why = f'; {bag.damage[0]}' if bag.damage else ''
             raise RecordingError(
-                f'there is no topic {full_name(name)}; there are: {there or "none"}{_why(bag)}'
+                f'there is no topic {full_name(name)}; there are: {there or "none"}{why}'
             )
+    tensions = find_tensions(bag, names, topics)
+    others = _others(bag, topics)
     skew = round(min(topics.max_skew * 1e9, END_OF_TIME))
-    tensions = _tensions(bag, topics, skew)
-    origin = int(tensions.times[0])
+    times, late, notes = common_clock(
+        {
+            topic: Stamped.of((message.stamp, message.log_time) for message in messages)
+            for topic, messages in {**tensions.messages, **others.messages}.items()
+        },
+        topics.clock,
+        skew,
+    )
+    tension_skew = topics.max_skew if topics.tension_skew is None else topics.tension_skew
+    samples = tension_samples(tensions, times, tension_skew)
+    if late & tensions.messages.keys():
+        samples.sort(key=lambda sample: sample.time)
+    at = np.array([sample.time for sample in samples], dtype=np.int64)
+    origin = int(at.min())
 
-    def joined(name: str, series: Callable[[Messages, str], _Series]) -> Floats | None:
-        if full_name(name) not in bag.types:
+    def joined(name: str | None, missing: Any) -> npt.NDArray[Any] | None:
+        if name is None or name not in others.messages:
             return None
-        return _nearest_numbers(series(bag, full_name(name)), tensions.times, skew)
+        values = np.array([*others.values[name], missing])
+        return values[_nearest(times[name], at, skew)]
 
+    state = joined(others.state, '')
     return Recording(
-        tension_l=np.array([pair[0] for pair in tensions.values]),
-        tension_s=np.array([pair[1] for pair in tensions.values]),
-        bend_angle=joined(
-            topics.bend_angle or DEFAULT_BEND_ANGLE,
-            lambda bag, name: _bend_angles(bag, name, topics.joint_name),
-        ),
-        pressure=joined(topics.pressure or DEFAULT_PRESSURE, _numbers),
-        state=_states(bag, full_name(topics.state), tensions.times, skew)
-        if topics.state
-        else None,
-        time=1e-9 * (tensions.times - origin).astype(np.float64),
+        tension_l=np.array([sample.tension_l for sample in samples]),
+        tension_s=np.array([sample.tension_s for sample in samples]),
+        bend_angle=joined(others.bend_angle, np.nan),
+        pressure=joined(others.pressure, np.nan),
+        state=None if state is None else state.tolist(),
+        faults=[sample.fault for sample in samples],
+        in_newtons=tensions.in_newtons or REPLAYED in bag.types,
+        time=1e-9 * (at - origin).astype(np.float64),
         time_origin=origin,
         name=path.name,
         damage=tuple(bag.damage),
+        notes=(*bag.notes, *notes),
     )
 
 
-def _why(bag: Messages) -> str:
-    return f'; {bag.damage[0]}' if bag.damage else ''
+def _tension_topics(bag: Messages, topics: BagTopics) -> list[str]:
+    """Return the topics of the tensions: those that are named, or where the estimator listens."""
+    if topics.tensions is not None:
+        return [full_name(name) for name in topics.tensions]
+    there = DEFAULT_TENSIONS in bag.types
+    if topics.tension_source == 'wrench_pair' or (
+        not there and topics.tension_source is None and set(DEFAULT_PAIR) <= bag.types.keys()
+    ):
+        return [*DEFAULT_PAIR]
+    return [DEFAULT_TENSIONS]
 
 
-def _series(bag: Messages, topic: str, value: Callable[[Any], Any]) -> _Series:
-    """Take a value from each message of a topic, in the order of time."""
-    timed = [
-        (_time(message, log_time), value(message)) for log_time, message in bag.messages[topic]
-    ]
-    timed.sort(key=lambda entry: entry[0])
-    return _Series(np.array([time for time, _ in timed], np.int64), [value for _, value in timed])
+class _Others:
+    """What was measured beside the tensions: topics with messages and values, and their names."""
+
+    def __init__(self) -> None:
+        self.messages: dict[str, list[Message]] = {}
+        self.values: dict[str, list[Any]] = {}
+        self.bend_angle: str | None = None
+        self.pressure: str | None = None
+        self.state: str | None = None
+
+    def add(self, name: str, messages: list[Message], value: Callable[[Message], Any]) -> None:
+        """Add the messages on a topic, but for those that have no value."""
+        pairs = [(message, value(message)) for message in messages]
+        self.messages[name] = [message for message, found in pairs if found is not None]
+        self.values[name] = [found for _, found in pairs if found is not None]
 
 
-def _time(message: Any, log_time: int) -> int:
-    """Return a message's time in ns: its stamp, or when it was recorded."""
-    header = getattr(message, 'header', None)
-    stamp = 0 if header is None else header.stamp.sec * 1_000_000_000 + header.stamp.nanosec
-    return stamp or log_time
+def _others(bag: Messages, topics: BagTopics) -> _Others:
+    others = _Others()
+    name = full_name(topics.bend_angle or DEFAULT_BEND_ANGLE)
+    if name in bag.types:
+        others.bend_angle = name
+        _add_bend_angle(others, bag, name, topics.joint_name)
+    name = full_name(topics.pressure or DEFAULT_PRESSURE)
+    if name in bag.types:
+        others.pressure = name
+        messages = messages_on(bag, name, (NUMBER, NUMBER_32))
+        others.add(name, messages, lambda message: float(message.content.data))
+    if topics.state is not None:
+        others.state = name = full_name(topics.state)
+        others.add(name, messages_on(bag, name, (TEXT,)), lambda message: message.content.data)
+    return others
 
 
-_Reader = Callable[[Messages, str], _Series]
-"""Reads the values of a topic"""
-
-
-def _of_type(bag: Messages, topic: str, readers: dict[str, _Reader]) -> _Reader:
-    """Return what reads a topic by its type.
-
-    Raises
-    ------
-    RecordingError
-        If the type is none of those.
-    """
-    kind = bag.types[topic]
-    if kind not in readers:
-        raise RecordingError(f'the topic {topic} is a {kind}; {" or ".join(readers)} is needed')
-    return readers[kind]
-
-
-def _each(value: Callable[[Any], Any]) -> _Reader:
-    """Return what reads a value from each message."""
-    return lambda bag, topic: _series(bag, topic, value)
-
-
-def _tensions(bag: Messages, topics: BagTopics, skew: int) -> _Series:
-    names = [full_name(name) for name in topics.tensions]
-    kinds: dict[str, _Reader] = {
-        ARRAY: _pairs,
-        JOINT_STATE: lambda bag, topic: _named(bag, topic, topics.cable_names, 'effort'),
-        ESTIMATE: _each(lambda message: (message.tension_l, message.tension_s)),
-    }
-    if len(names) == 2:
-        kinds = {WRENCH: _each(lambda message: _force(message, topics.force_component))}
-    readers = [_of_type(bag, name, kinds) for name in names]
-    for name in names:
-        if not bag.messages[name]:
-            raise RecordingError(f'there is no message on {name}{_why(bag)}')
-    first, *second = (read(bag, name) for read, name in zip(readers, names, strict=True))
-    if not second:
-        return first
-    paired = _nearest_numbers(second[0], first.times, skew)
-    return _Series(first.times, list(zip(first.values, paired, strict=True)))
-
-
-def _force(message: Any, component: str) -> float:
-    vector = message.wrench.force
-    if component == 'norm':
-        return math.hypot(vector.x, vector.y, vector.z)
-    return float(getattr(vector, component))
-
-
-def _pairs(bag: Messages, topic: str) -> _Series:
-    """Both tensions of each array, NaN of one that does not have two numbers.
+def _add_bend_angle(others: _Others, bag: Messages, topic: str, joint: str | None) -> None:
+    """Add the angles on a topic.
 
     Raises
     ------
     RecordingError
-        If none has.
+        If it is to be said which joint is meant, or no message has its position.
     """
-    lengths = sorted({len(message.data) for _, message in bag.messages[topic]})
-    if 2 not in lengths:
+    kinds = (NUMBER, NUMBER_32, JOINT_STATE, DYNAMIC)
+    messages = messages_on(bag, topic, kinds)
+    with_names = bool(messages) and messages[0].kind in (JOINT_STATE, DYNAMIC)
+    joints = joints_on(messages) if with_names else []
+    if joint is None and len(joints) > 1:
+        raise RecordingError(f'the topic {topic} has joints {", ".join(joints)}; name one of them')
+    name = joint or next(iter(joints), 'a joint')
+    others.add(topic, messages, position_of(name))
+    if with_names and not any(map(_is_known, others.values[topic])):
+        there = [one for one in joints if any(_is_known(position_of(one)(m)) for m in messages)]
         raise RecordingError(
-            f'the messages on {topic} hold {" or ".join(map(str, lengths))} numbers; '
-            'two are needed, T_l and T_s'
-        )
-
-    def pair(message: Any) -> tuple[float, float]:
-        data = message.data
-        return (float(data[0]), float(data[1])) if len(data) == 2 else (math.nan, math.nan)
-
-    return _series(bag, topic, pair)
-
-
-def _named(bag: Messages, topic: str, names: Sequence[str], field: str) -> _Series:
-    """Values of some names in each ``JointState``, a tuple; NaN of a name that is not in it.
-
-    Raises
-    ------
-    RecordingError
-        If there are messages, but none with a value of each name.
-    """
-    there: set[str] = set()
-    complete = not bag.messages[topic]
-
-    def values(message: Any) -> tuple[float, ...]:
-        nonlocal complete
-        held = dict(zip(message.name, getattr(message, field), strict=False))
-        there.update(held)
-        complete = complete or held.keys() >= set(names)
-        return tuple(float(held.get(name, math.nan)) for name in names)
-
-    series = _series(bag, topic, values)
-    if not complete:
-        raise RecordingError(
-            f'no message on {topic} has the {field} of {" and ".join(names)}; '
+            f'no message on {topic} has the position of {name}; '
             f'there is that of: {", ".join(sorted(there)) or "none"}'
         )
-    return series
 
 
-def _numbers(bag: Messages, topic: str) -> _Series:
-    return _of_type(bag, topic, {NUMBER: _each(lambda message: message.data)})(bag, topic)
+def _is_known(value: float | None) -> bool:
+    return value is not None and not math.isnan(value)
 
 
-def _bend_angles(bag: Messages, topic: str, joint_name: str | None) -> _Series:
-    def positions(bag: Messages, topic: str) -> _Series:
-        joints = {name: None for _, message in bag.messages[topic] for name in message.name}
-        if joint_name is None and len(joints) > 1:
-            raise RecordingError(
-                f'the topic {topic} has joints {", ".join(joints)}; name one of them'
-            )
-        name = next(iter(joints), 'a joint') if joint_name is None else joint_name
-        series = _named(bag, topic, (name,), 'position')
-        return _Series(series.times, [position for (position,) in series.values])
-
-    readers = {NUMBER: _each(lambda message: message.data), JOINT_STATE: positions}
-    return _of_type(bag, topic, readers)(bag, topic)
-
-
-def _states(bag: Messages, topic: str, times: npt.NDArray[np.int64], skew: int) -> list[str]:
-    series = _of_type(bag, topic, {TEXT: _each(lambda message: message.data)})(bag, topic)
-    return [
-        series.values[index] if index >= 0 else '' for index in _nearest(series.times, times, skew)
-    ]
-
-
-def _nearest_numbers(series: _Series, times: npt.NDArray[np.int64], skew: int) -> Floats:
-    """Values nearest in time, NaN where none is near enough."""
-    values = np.array([*series.values, math.nan], dtype=np.float64)
-    return values[_nearest(series.times, times, skew)]
-
-
-def _nearest(
-    there: npt.NDArray[np.int64], times: npt.NDArray[np.int64], skew: int
-) -> npt.NDArray[np.intp]:
+def _nearest(there: Times, times: Times, skew: int) -> npt.NDArray[np.intp]:
     """Index of the time nearest to each of `times`, −1 where none is within `skew`; all in ns."""
     if not len(there):
         return np.full(len(times), -1)
-    after = np.searchsorted(there, times).clip(0, len(there) - 1)
+    order = np.argsort(there, kind='stable')
+    ordered = there[order]
+    after = np.searchsorted(ordered, times).clip(0, len(there) - 1)
     before = (after - 1).clip(0)
-    nearest = np.where(times - there[before] <= there[after] - times, before, after)
-    return np.where(abs(there[nearest] - times) <= skew, nearest, -1)
+    nearest = np.where(times - ordered[before] <= ordered[after] - times, before, after)
+    return np.where(abs(ordered[nearest] - times) <= skew, order[nearest], -1)

@@ -8,6 +8,8 @@ PURPOSE = 'ROS bags'
 
 UNKNOWN_TYPE = 'message of unknown type'
 
+CDR, ROS1 = 'cdr', 'ros1'
+
 
 class Record(NamedTuple):
     """A message before it is decoded; of a damaged file the fields may hold anything."""
@@ -19,4 +21,6 @@ class Record(NamedTuple):
     log_time: Any
     """When it was recorded, in ns"""
     data: Any
-    """Its content, CDR"""
+    """Its content"""
+    encoding: str = CDR
+    """Of its content: `CDR` or `ROS1`"""

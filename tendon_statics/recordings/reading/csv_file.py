@@ -1,17 +1,22 @@
-"""Recordings in CSV files."""
+"""Recordings in text files: CSV, and what spreadsheets and LabVIEW make of it."""
 
 from __future__ import annotations
 
-import codecs
 import csv
 import math
-from collections.abc import Iterator
+from collections.abc import Sequence
 from pathlib import Path
+
+import numpy as np
 
 from ..errors import RecordingError
 from ..progress import Progress, unseen
 from ..recording import Recording
-from .columns import Column, find_columns
+from .columns import Column, Columns, find_columns
+from .table import table_recording
+from .table_options import TableOptions
+from .text_form import TextForm, bare, recognise
+from .time_column import is_iso, times_of, times_of_iso
 
 LINE_ENDS = (b'\n', b'\r')
 
@@ -19,83 +24,127 @@ MOST_SHOWN = 80
 """Characters of a damaged line that are shown"""
 
 
-def load_csv(path: Path, progress: Progress = unseen) -> Recording:
-    """Read a CSV file whose first line names the columns, as `load_recording` does.
+def load_csv(
+    path: Path, options: TableOptions | None = None, progress: Progress = unseen
+) -> Recording:
+    """Read a text file with a table whose titles name the columns, as `load_recording` does.
 
-    Empty lines and lines that begin with ``#`` are left alone; an empty field is NaN. A line that
-    is not as long as the first, is not UTF-8 or has no number where there should be one is damage.
-    So is a last line without an end whose last field is shorter than that of every line before:
-    a number that was cut still looks like one.
+    Empty lines and comments are left alone; an empty field is NaN. A line that is not as long as
+    the titles, is not UTF-8 or has no number where there should be one is damage. So is a last
+    line without an end whose last field is shorter than that of every line before: a number that
+    was cut still looks like one.
     """
-    numbered = list(_lines(path.read_bytes()))
-    titles = _titles(numbered[0][1]) if numbered else []
-    columns = find_columns(titles)
-    values: dict[str, list[float]] = {name: [] for name in columns if name != 'state'}
-    states: list[str] = []
-    damage = []
-    shortest = 0  # last field so far, in characters
-    for number, line in progress(numbered[1:], 'reading'):
+    options = options or TableOptions()
+    content, notes = bare(path.read_bytes(), options)
+    form = recognise(content, options)
+    rows = _Rows(form, find_columns(form.titles, options))
+    for number, line in progress(form.rows, 'reading'):
+        rows.take(number, line)
+    return rows.recording(path.name, (*notes, *form.notes))
+
+
+class _Rows:
+    """The rows of a table, one by one."""
+
+    def __init__(self, form: TextForm, columns: Columns) -> None:
+        self._form = form
+        self._columns = columns
+        self._values: dict[str, list[float]] = {name: [] for name in columns.numbers}
+        self._texts: list[str] = []
+        """Dates and times"""
+        self._times: list[float] = []
+        self._nanoseconds: list[float] = []
+        self._states: list[str] = []
+        self._damage: list[str] = []
+        self._shortest = 0  # last field so far, in characters
+        self._is_iso: bool | None = None
+
+    def take(self, number: int, line: bytes) -> None:
+        """Take a row, or name what is wrong with it."""
+        titles = self._form.titles
         try:
-            fields = _fields(line)
-            row = [_number(fields, columns[name]) for name in values]
+            fields = self._form.fields(line)
+            row = [self._number(fields, column) for column in self._columns.numbers.values()]
+            time = self._time(fields)
             if len(fields) != len(titles):
                 raise ValueError(f'{len(fields)} fields')
         except (ValueError, IndexError, csv.Error):
-            damage.append(f'line {number}, {_shown(line)}, is not a row of {",".join(titles)}')
-            continue
+            place = f'line {number}, {_shown(line)}'
+            self._damage.append(f'{place}, is not a row of {self._form.separator.join(titles)}')
+            return
         length = len(fields[-1])
-        if not line.endswith(LINE_ENDS) and length < shortest:
-            damage.append(
+        if not line.endswith(LINE_ENDS) and length < self._shortest:
+            self._damage.append(
                 f'line {number}, {_shown(line)}, is shorter than all before it and has no end, '
                 'so it has been cut; if it is whole, add an end of line'
             )
-            continue
-        shortest = min(shortest or length, length)
-        for kept, value in zip(values.values(), row, strict=True):
+            return
+        self._shortest = min(self._shortest or length, length)
+        for kept, value in zip(self._values.values(), row, strict=True):
             kept.append(value)
-        if 'state' in columns:
-            states.append(fields[columns['state'].place])
-    if not values['tension_l']:
-        why = f'; {damage[0]}' if damage else ''
-        raise RecordingError(f'there is no row of tensions in it{why}')
-    return Recording(
-        **values,  # type: ignore[arg-type]
-        state=states if 'state' in columns else None,
-        name=path.name,
-        damage=tuple(damage),
-    )
+        if isinstance(time, str):
+            self._texts.append(time)
+        elif time is not None:
+            self._times.append(time[0])
+            self._nanoseconds.append(time[1])
+        if self._columns.state is not None:
+            self._states.append(fields[self._columns.state])
 
+    def recording(self, name: str, notes: Sequence[str]) -> Recording:
+        """Return what was read.
 
-def _lines(content: bytes) -> Iterator[tuple[int, bytes]]:
-    """Give the lines that are not empty and no comments, with their numbers and ends."""
-    lines = content.removeprefix(codecs.BOM_UTF8).splitlines(keepends=True)
-    for number, line in enumerate(lines, start=1):
-        if line.strip() and not line.startswith(b'#'):
-            yield number, line
+        Raises
+        ------
+        RecordingError
+            If that is no row.
+        """
+        if not self._values['tension_l']:
+            why = f'; {self._damage[0]}' if self._damage else ''
+            raise RecordingError(f'there is no row of tensions in it{why}')
+        column, times = self._columns.time, None
+        if column is not None and self._is_iso:
+            times = times_of_iso(column, self._texts)
+        elif column is not None:
+            rest = None if column.nanoseconds is None else np.array(self._nanoseconds)
+            times = times_of(column, np.array(self._times), rest)
+        return table_recording(
+            name,
+            self._columns,
+            {quantity: np.array(values) for quantity, values in self._values.items()},
+            times,
+            None if self._columns.state is None else self._states,
+            damage=self._damage,
+            notes=notes,
+        )
 
+    def _time(self, fields: list[str]) -> str | tuple[float, float] | None:
+        """Return a row's time: a text of ISO 8601, or the number with what is to be added."""
+        column = self._columns.time
+        if column is None:
+            return None
+        text = fields[column.place]
+        if self._is_iso is None and text:
+            self._is_iso = is_iso(text)
+        if self._is_iso:
+            if text and not is_iso(text):
+                raise ValueError(text)
+            return text
+        rest = 0.0
+        if column.nanoseconds is not None:
+            rest = self._plain(fields[column.nanoseconds])
+        return self._plain(text), rest
 
-def _titles(line: bytes) -> list[str]:
-    try:
-        return _fields(line)
-    except (ValueError, csv.Error):
-        raise RecordingError(
-            'it is not a text file in UTF-8 whose first line names columns'
-        ) from None
+    def _number(self, fields: list[str], column: Column) -> float:
+        return column.factor * self._plain(fields[column.place])
 
-
-def _fields(line: bytes) -> list[str]:
-    text = line.decode().rstrip('\r\n')
-    if '\0' in text:
-        raise ValueError('a NUL')
-    fields = next(csv.reader([text])) if '"' in text else text.split(',')
-    return [field.strip() for field in fields]
-
-
-def _number(fields: list[str], column: Column) -> float:
-    text = fields[column.place]
-    if '_' in text:
-        raise ValueError(text)  # Python takes 1_5 for 15.
-    return column.factor * float(text) if text else math.nan
+    def _plain(self, text: str) -> float:
+        if '_' in text:
+            raise ValueError(text)  # Python takes 1_5 for 15.
+        if self._form.decimal == ',':
+            if '.' in text:
+                raise ValueError(text)  # a point between thousands, perhaps
+            text = text.replace(',', '.')
+        return float(text) if text else math.nan
 
 
 def _shown(line: bytes) -> str:

@@ -12,7 +12,7 @@ UNITS = {
     'time': {'s': 1.0, 'ms': 1e-3, 'us': 1e-6, 'ns': 1e-9},
     'tension_l': _TENSION,
     'tension_s': _TENSION,
-    'bend_angle': {'rad': 1.0, 'mrad': 1e-3, 'deg': math.radians(1.0)},
+    'bend_angle': {'rad': 1.0, 'mrad': 1e-3, 'deg': math.radians(1.0), '°': math.radians(1.0)},
     'pressure': {'Pa': 1.0, 'kPa': 1e3, 'MPa': 1e6},
 }
 """Quantity → unit → what one of it is in SI, which comes first and needs no mention"""
@@ -31,6 +31,12 @@ _FOREIGN_UNITS = {
 _COLUMN = re.compile(r'(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?')
 
 
+def split_title(title: str) -> tuple[str, str | None]:
+    """Split a column's title into its name and the unit in brackets, None if there is none."""
+    match = _COLUMN.fullmatch(title.strip())
+    return (title.strip(), None) if match is None else (match['name'], match['unit'])
+
+
 def parse_column(title: str) -> tuple[str, float]:
     """Split a column's title, ``tension_l`` or ``tension_l [mN]``, into name and SI factor.
 
@@ -43,8 +49,7 @@ def parse_column(title: str) -> tuple[str, float]:
         otherwise, so that it would be overlooked.
     """
     title = title.strip()
-    match = _COLUMN.fullmatch(title)
-    name, unit = (title, None) if match is None else (match['name'], match['unit'])
+    name, unit = split_title(title)
     if name in UNITS:
         units = UNITS[name]
         if unit is None:

@@ -12,7 +12,8 @@ import numpy as np
 from ...files.output_file import OutputError, output_file
 from ..libraries import needed
 from ..progress import Progress, unseen
-from ..reading.bag import ARRAY, DEFAULT_BEND_ANGLE, DEFAULT_PRESSURE, NUMBER, TEXT
+from ..reading.bag import DEFAULT_BEND_ANGLE, DEFAULT_PRESSURE
+from ..reading.bag_values import ARRAY, NUMBER, TEXT
 from ..recording import Floats, Recording
 from .estimates import Replay
 
@@ -108,6 +109,8 @@ def _recorded(recording: Recording) -> list[_Series]:
             series.append(_Series(topic, NUMBER, values.tolist()))
     if recording.state is not None:
         series.append(_Series(STATE, TEXT, recording.state))
+    if recording.readings is not None:
+        series.append(_Series('/readings', ARRAY, list(zip(*recording.readings, strict=True))))
     return series
 
 
@@ -120,6 +123,7 @@ def _estimated(replay: Replay) -> list[_Series]:
         _Series(f'{PREFIX}joint_pressure_stddev', NUMBER, _determined(replay.pressure_stddev)),
         _Series(f'{PREFIX}slip_margin', NUMBER, _determined(replay.slip_margin)),
         _Series(f'{PREFIX}angle_assured', BOOLEAN, replay.angle_assured.tolist()),
+        _Series(f'{PREFIX}validity', TEXT, replay.validity.tolist()),
     ]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import NamedTuple
 
@@ -11,13 +12,18 @@ from numpy.typing import NDArray
 from ...physics import JointDesign, StickSlipTracker, TensionError, TrackedState
 from ...physics.admissible import check_bend_angle
 from ...physics.batch import solve_batch
+from ...physics.solver import MAX_TENSION
+from ...tensions.cable_scale import CableScale, scaled_arrays
+from ...tensions.reason import Reason
 from ..progress import Progress, unseen
+from ..reading.columns import READINGS
 from ..recording import Floats, Recording
-
-ESTIMATIONS = ('equilibrium', 'tracking')
+from ..scaling import usable, worse_reasons
 
 CHUNK = 20_000
 """Samples solved at once, after which progress is shown"""
+
+VALID = 'valid'
 
 INVALID = 'invalid'
 """Regime of a sample that the model does not take"""
@@ -38,6 +44,8 @@ class Replay(NamedTuple):
     slip_margin: Floats
     angle_assured: NDArray[np.bool_]
     """False where a cable has been slack, until a stop: a tracked unit may have moved"""
+    validity: NDArray[np.str_]
+    """``valid``, or why a sample is not, in the node's words (`Reason`)"""
 
     @property
     def error(self) -> Floats | None:
@@ -58,6 +66,7 @@ class Replay(NamedTuple):
                 ('time', recorded.time),
                 ('tension_l', recorded.tension_l),
                 ('tension_s', recorded.tension_s),
+                *zip(READINGS, recorded.readings or (None, None), strict=True),
                 ('bend_angle', recorded.bend_angle),
                 ('pressure', recorded.pressure),
                 ('state', None if recorded.state is None else np.array(recorded.state)),
@@ -72,6 +81,7 @@ class Replay(NamedTuple):
             'estimated_pressure_stddev': self.pressure_stddev,
             'slip_margin': self.slip_margin,
             'angle_assured': self.angle_assured,
+            'validity': self.validity,
         }
 
 
@@ -112,6 +122,9 @@ def replay(
             f'tension_stddev is {tension_stddev!r} N, allowed is a finite number above 0'
         )
     check_bend_angle(design, initial_bend_angle)
+    faults = _faults(recording)
+    given = recording
+    recording = usable(dataclasses.replace(recording, faults=faults))
     starts = progress(range(0, len(recording), CHUNK), 'solving')
     if estimation == 'equilibrium':
         parts = [_solved(design, recording, start, tension_stddev) for start in starts]
@@ -121,17 +134,33 @@ def replay(
         parts = [_tracked(tracker, recording, start, tension_stddev) for start in starts]
     regime, numbers, assured = zip(*parts, strict=True)
     angle, angle_stddev, pressure, pressure_stddev, margin = np.concatenate(numbers, axis=1)
+    regimes = np.concatenate(regime)
+    faults = [
+        fault or (Reason.BELOW_WEIGHT.value if name == INVALID else VALID)
+        for fault, name in zip(faults, regimes.tolist(), strict=True)
+    ]
     return Replay(
-        recording,
+        given,
         estimation,
-        np.concatenate(regime),
+        regimes,
         angle,
         angle_stddev,
         pressure,
         pressure_stddev,
         margin,
         np.concatenate(assured),
+        np.array(faults, dtype=np.str_),
     )
+
+
+def _faults(recording: Recording) -> list[str]:
+    """Why each sample is no pair of tensions, as far as that is seen without a design."""
+    limits = CableScale(max_tension=MAX_TENSION)
+    found = worse_reasons(
+        *(scaled_arrays(of, limits)[1] for of in (recording.tension_l, recording.tension_s))
+    )
+    known = recording.known_faults
+    return [before or now for before, now in zip(known, found.tolist(), strict=True)]
 
 
 _Part = tuple[NDArray[np.str_], Floats, NDArray[np.bool_]]
