@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 from pathlib import Path
 
 from .yaml_file import YamlFileError, read_yaml
@@ -102,6 +103,34 @@ def node_parameter(content: object, node: str, parameter: str) -> object:
         if isinstance(parameters, Mapping) and parameter in parameters and fits(name, node):
             found = parameters[parameter]
     return found
+
+
+def check_parameter_files(arguments: Sequence[str], node: str = '') -> None:
+    """Hold the parameter files that a node was started with to what every reader of them asks.
+
+    Parameters
+    ----------
+    arguments : sequence of str
+        Of the program, in which files follow ``--params-file``.
+    node : str
+        Full name of the node, to which a file must not be for other nodes only: it would compute
+        with another unit than is meant. Empty: that is not looked at.
+
+    Raises
+    ------
+    ParameterFileError
+        If one means different things to different readers, or is for other nodes; the text names
+        it.
+    """
+    for option, value in pairwise(arguments):
+        if option != '--params-file':
+            continue
+        try:
+            content = read_parameters(Path(value))
+            if node:
+                node_parameters(content, node)
+        except ParameterFileError as error:
+            raise ParameterFileError(f'{value}: {error}') from None
 
 
 def fits(name: str, node: str) -> bool:

@@ -10,6 +10,7 @@ from rclpy.exceptions import InvalidParameterValueException
 from rclpy.node import Node
 
 from ..files.number_parameter import NumberParameter, SettingError
+from ..files.unit_file import check_cable_names
 from ..files.unit_parameters import CABLES, TENSION_SOURCES
 from .tension_source import COMPONENTS
 
@@ -53,12 +54,7 @@ def declare_cable_names(node: Node) -> tuple[str, str]:
         list(CABLES),
         'joint_state: names of cables l and s, whose tensions are in effort',
     )
-    names = list(names or ())  # an empty list comes as None
-    if len(names) != 2 or len(set(names)) != 2 or '' in names:
-        raise SettingError(
-            f'cable_names is {names!r}, two different names are needed, of cables l and s'
-        )
-    return names[0], names[1]
+    return check_cable_names(list(names or ()))  # an empty list comes as None
 
 
 def declare_wrench_component(node: Node) -> str:

@@ -10,11 +10,12 @@ from rclpy.node import Node
 
 from ..files.design_file import default_design_path, load_design
 from ..files.number_parameter import NumberParameter, SettingError
+from ..files.unit_file import cable_scale
 from ..files.unit_parameters import NUMBERS
 from ..physics import BendAngleError, DesignError, JointDesign, design_parameters
 from ..physics.admissible import check_bend_angle
+from ..tensions.cable_scale import CableScale
 from .parameters import declare_number
-from .tension_source import Calibration
 
 PREFIX = 'design.'
 
@@ -28,8 +29,8 @@ class Settings:
     initial_bend_angle: float
     input_timeout: float
     max_skew: float
-    cable_l: Calibration
-    cable_s: Calibration
+    cable_l: CableScale
+    cable_s: CableScale
 
     @classmethod
     def from_values(cls, values: Mapping[str, object]) -> Settings:
@@ -58,8 +59,8 @@ class Settings:
             initial_bend_angle=initial_bend_angle,
             input_timeout=number['input_timeout'],
             max_skew=number['max_skew'],
-            cable_l=_calibration('cable_l', number),
-            cable_s=_calibration('cable_s', number),
+            cable_l=cable_scale('cable_l', number),
+            cable_s=cable_scale('cable_s', number),
         )
 
 
@@ -144,12 +145,3 @@ def _design(values: Mapping[str, object]) -> JointDesign:
         )
     except DesignError as error:
         raise SettingError(f'{PREFIX if error.key else ""}{error}') from None
-
-
-def _calibration(cable: str, number: Mapping[str, float]) -> Calibration:
-    calibration = Calibration(*(number[f'{cable}.{field}'] for field in Calibration._fields))
-    if calibration.gain == 0.0:
-        raise SettingError(
-            f'{cable}.gain is 0.0, with which the tension does not follow what is measured'
-        )
-    return calibration

@@ -41,7 +41,7 @@ def cable_values(
     if not any(cable in names for cable in cables):
         return NamedValues()
     if len(values) != len(names):
-        text = f'{len(names)} names came with {len(values)} {field} values'
+        text = f'{len(names)} names came with {len(values)} {field}s, so it is not known whose'
         return NamedValues(fault=(Reason.WRONG_LENGTH, text))
     held = dict(zip(names, values, strict=True))
     value_l, value_s = (held.get(cable) for cable in cables)
