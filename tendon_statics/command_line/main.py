@@ -28,6 +28,7 @@ VERBS = {
     'calibrate': 'fit a design to a recorded session, with the uncertainty of every value',
     'replay': 'every sample of a recorded session through the model',
     'report': 'a recorded session and its calibration as one HTML file',
+    'tare': 'the biases of load cells from a recording of slack cables',
     'sweep': 'a map of the answers over both cable tensions, as a file',
     'track': 'follow the unit, with memory, through the tensions of a CSV file',
     'invert': 'the tensions at which the unit is about to slip at a bend angle',

@@ -86,6 +86,29 @@ class Recording:
         """T_l and T_s of every sample, as plain numbers in N."""
         return list(zip(self.tension_l.tolist(), self.tension_s.tolist(), strict=True))
 
+    def part(self, which: npt.NDArray[np.bool_]) -> Recording:
+        """Return a recording of some of the samples, given as an array of shape ``(n,)``."""
+        chosen = np.flatnonzero(which)
+
+        def texts(values: Sequence[str] | None) -> list[str] | None:
+            return None if values is None else [values[place] for place in chosen]
+
+        def numbers(values: Floats | None) -> Floats | None:
+            return None if values is None else values[chosen]
+
+        readings = self.readings
+        return dataclasses.replace(
+            self,
+            tension_l=self.tension_l[chosen],
+            tension_s=self.tension_s[chosen],
+            bend_angle=numbers(self.bend_angle),
+            pressure=numbers(self.pressure),
+            time=numbers(self.time),
+            state=texts(self.state),
+            faults=texts(self.faults),
+            readings=None if readings is None else (readings[0][chosen], readings[1][chosen]),
+        )
+
     @property
     def known_faults(self) -> Sequence[str]:
         """Why each sample holds no pair of tensions; empty where nothing is known."""
