@@ -116,7 +116,7 @@ def _text(unit: Unit, slack: Recording, tares: tuple[CableTare, CableTare]) -> s
     rows = [
         (
             of.cable,
-            str(of.count),
+            str(of.readings),
             f'{of.mean:.5g}',
             f'{of.scatter:.3g}',
             f'{of.drift:+.3g}',

@@ -91,7 +91,7 @@ class Recording:
         chosen = np.flatnonzero(which)
 
         def texts(values: Sequence[str] | None) -> list[str] | None:
-            return None if values is None else [values[place] for place in chosen]
+            return None if values is None else [values[place] for place in chosen.tolist()]
 
         def numbers(values: Floats | None) -> Floats | None:
             return None if values is None else values[chosen]

@@ -25,7 +25,7 @@ class CableTare(NamedTuple):
     """What slack readings tell of one cable."""
 
     cable: str
-    count: int
+    readings: int
     mean: float
     """N, with the bias as it was"""
     scatter: float

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,7 @@ import numpy.typing as npt
 from ..errors import RecordingError
 from ..progress import Progress, unseen
 from ..recording import Recording
-from .bag_storage import END_OF_TIME, Message, Messages, read_messages
+from .bag_storage import END_OF_TIME, Message, Messages, read_messages, without_copies
 from .bag_tensions import find_tensions, tension_samples
 from .bag_values import (
     DYNAMIC,
@@ -56,14 +56,7 @@ def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Reco
     tensions = find_tensions(bag, names, topics)
     others = _others(bag, topics)
     skew = round(min(topics.max_skew * 1e9, END_OF_TIME))
-    times, late, notes = common_clock(
-        {
-            topic: Stamped.of((message.stamp, message.log_time) for message in messages)
-            for topic, messages in {**tensions.messages, **others.messages}.items()
-        },
-        topics.clock,
-        skew,
-    )
+    times, late, notes = _times([tensions.messages, others.messages], topics.clock, skew)
     tension_skew = topics.max_skew if topics.tension_skew is None else topics.tension_skew
     samples = tension_samples(tensions, times, tension_skew)
     if late & tensions.messages.keys():
@@ -75,7 +68,8 @@ def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Reco
         if name is None or name not in others.messages:
             return None
         values = np.array([*others.values[name], missing])
-        return values[_nearest(times[name], at, skew)]
+        there = np.array([times[message.order] for message in others.messages[name]], np.int64)
+        return values[_nearest(there, at, skew)]
 
     state = joined(others.state, '')
     return Recording(
@@ -92,6 +86,31 @@ def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Reco
         damage=tuple(bag.damage),
         notes=(*bag.notes, *notes),
     )
+
+
+def _times(
+    used: Sequence[Mapping[str, Sequence[Message]]], clock: str, skew: int
+) -> tuple[dict[int, int], set[str], list[str]]:
+    """Return the time of every message, by its order, as `common_clock` chooses it.
+
+    One topic may tell more than one thing.
+    """
+    on: dict[str, dict[int, Message]] = {}
+    for messages_by_topic in used:
+        for topic, messages in messages_by_topic.items():
+            on.setdefault(topic, {}).update((message.order, message) for message in messages)
+    ordered = {topic: sorted(messages) for topic, messages in on.items()}
+    stamped = {
+        topic: Stamped.of((on[topic][order].stamp, on[topic][order].log_time) for order in orders)
+        for topic, orders in ordered.items()
+    }
+    times, late, notes = common_clock(stamped, clock, skew)
+    by_order = {
+        order: time
+        for topic, orders in ordered.items()
+        for order, time in zip(orders, times[topic].tolist(), strict=True)
+    }
+    return by_order, late, notes
 
 
 def _tension_topics(bag: Messages, topics: BagTopics) -> list[str]:
@@ -116,8 +135,15 @@ class _Others:
         self.pressure: str | None = None
         self.state: str | None = None
 
-    def add(self, name: str, messages: list[Message], value: Callable[[Message], Any]) -> None:
-        """Add the messages on a topic, but for those that have no value."""
+    def add(
+        self,
+        bag: Messages,
+        name: str,
+        messages: Sequence[Message],
+        value: Callable[[Message], Any],
+    ) -> None:
+        """Add the messages on a topic, but for those that have no value, and copies."""
+        messages = without_copies(bag, name, messages)
         pairs = [(message, value(message)) for message in messages]
         self.messages[name] = [message for message, found in pairs if found is not None]
         self.values[name] = [found for _, found in pairs if found is not None]
@@ -133,10 +159,12 @@ def _others(bag: Messages, topics: BagTopics) -> _Others:
     if name in bag.types:
         others.pressure = name
         messages = messages_on(bag, name, (NUMBER, NUMBER_32))
-        others.add(name, messages, lambda message: float(message.content.data))
+        others.add(bag, name, messages, lambda message: float(message.content.data))
     if topics.state is not None:
         others.state = name = full_name(topics.state)
-        others.add(name, messages_on(bag, name, (TEXT,)), lambda message: message.content.data)
+        others.add(
+            bag, name, messages_on(bag, name, (TEXT,)), lambda message: message.content.data
+        )
     return others
 
 
@@ -155,7 +183,7 @@ def _add_bend_angle(others: _Others, bag: Messages, topic: str, joint: str | Non
     if joint is None and len(joints) > 1:
         raise RecordingError(f'the topic {topic} has joints {", ".join(joints)}; name one of them')
     name = joint or next(iter(joints), 'a joint')
-    others.add(topic, messages, position_of(name))
+    others.add(bag, topic, messages, position_of(name))
     if with_names and not any(map(_is_known, others.values[topic])):
         there = [one for one in joints if any(_is_known(position_of(one)(m)) for m in messages)]
         raise RecordingError(

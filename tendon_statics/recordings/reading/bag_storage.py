@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -81,30 +81,30 @@ def read_messages(path: Path, topics: Collection[str], progress: Progress = unse
         messages.damage += [f'{prefix}{place}' for place in damage]
     messages.damage += [*folder.damage, *_missing(folder.counts, reading.counts)]
     messages.notes += folder.notes
-    for topic in messages.messages:
-        _leave_out_copies(messages, topic)
     return messages
 
 
-def _leave_out_copies(messages: Messages, topic: str) -> None:
+def without_copies(bag: Messages, topic: str, messages: Sequence[Message]) -> list[Message]:
     """Leave out what was recorded more than once: all of it is alike, and its stamp, or its time.
 
-    Without stamps that may be by chance, unless it is so of the whole topic.
+    Without stamps that may be by chance, unless it is so of all of them.
     """
     seen: set[tuple[int, int]] = set()
     kept: list[Message] = []
-    copies: list[Message] = []
     stamped = False
-    for message in messages.messages[topic]:
+    for message in messages:
         key = (message.stamp or message.log_time, message.digest)
-        (copies if key in seen else kept).append(message)
+        if key not in seen:
+            kept.append(message)
         seen.add(key)
         stamped = stamped or message.stamp != 0
-    if copies and (stamped or len(copies) >= len(kept)):
-        messages.messages[topic] = kept
-        messages.notes.append(
-            f'{topic} was recorded more than once: {len(copies)} copies of messages are left out'
-        )
+    copies = len(messages) - len(kept)
+    if not copies or not (stamped or copies >= len(kept)):
+        return list(messages)
+    bag.notes.append(
+        f'{topic} was recorded more than once: {copies} copies of messages are left out'
+    )
+    return kept
 
 
 def _missing(expected: dict[str, int], counts: Counter[str]) -> Iterator[str]:

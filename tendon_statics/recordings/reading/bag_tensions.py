@@ -11,7 +11,7 @@ from ...tensions.named_values import NamedValues
 from ...tensions.pairing import Pairing, Single
 from ...tensions.reason import Reason
 from ..errors import RecordingError
-from .bag_storage import Message, Messages
+from .bag_storage import Message, Messages, without_copies
 from .bag_values import (
     DYNAMIC,
     ESTIMATE,
@@ -23,7 +23,6 @@ from .bag_values import (
     messages_on,
     one_cable,
 )
-from .clock import Times
 from .topics import BagTopics
 
 NAN = math.nan
@@ -80,6 +79,7 @@ def find_tensions(bag: Messages, names: Sequence[str], topics: BagTopics) -> Ten
             why = f'; {bag.damage[0]}' if bag.damage else ''
             raise RecordingError(f'there is no message on {name}{why}')
     if len(names) == 2:
+        found = {name: without_copies(bag, name, messages) for name, messages in found.items()}
         value = one_cable(topics)
         name_l, name_s = names
         return TensionMessages(
@@ -89,10 +89,12 @@ def find_tensions(bag: Messages, names: Sequence[str], topics: BagTopics) -> Ten
                 name_s: [NamedValues(value_s=value(message)) for message in found[name_s]],
             },
         )
-    return _of_one_topic(names[0], found[names[0]], topics)
+    return _of_one_topic(bag, names[0], found[names[0]], topics)
 
 
-def _of_one_topic(name: str, messages: Sequence[Message], topics: BagTopics) -> TensionMessages:
+def _of_one_topic(
+    bag: Messages, name: str, messages: Sequence[Message], topics: BagTopics
+) -> TensionMessages:
     """Leave out the messages that are about neither cable.
 
     Raises
@@ -102,14 +104,13 @@ def _of_one_topic(name: str, messages: Sequence[Message], topics: BagTopics) -> 
     """
     read = cables_in(topics)
     values = [read(message) for message in messages]
-    ours = [place for place, value in enumerate(values) if not value.is_foreign]
     has_l = any(value.value_l is not None for value in values)
     has_s = any(value.value_s is not None for value in values)
     if not (has_l and has_s):
         raise RecordingError(_nothing(name, messages, values, topics))
-    return TensionMessages(
-        {name: [messages[place] for place in ours]}, {name: [values[place] for place in ours]}
-    )
+    ours = [m for m, value in zip(messages, values, strict=True) if not value.is_foreign]
+    ours = without_copies(bag, name, ours)
+    return TensionMessages({name: ours}, {name: [read(message) for message in ours]})
 
 
 def _nothing(
@@ -139,14 +140,14 @@ def _nothing(
 
 
 def tension_samples(
-    found: TensionMessages, times: Mapping[str, Times], max_skew: float
+    found: TensionMessages, times: Mapping[int, int], max_skew: float
 ) -> list[Sample]:
     """Pair what belongs together; keep what has no partner, with NaN and the reason.
 
     Parameters
     ----------
     times : mapping
-        Topic → time of each of its messages in ns.
+        `Message.order` → time in ns.
     max_skew : float
         s by which the two tensions of a pair may be apart.
     """
@@ -163,11 +164,9 @@ def tension_samples(
 
     pairing = Pairing(lambda: max_skew, deliver, drop)
     arrivals = [
-        (message.order, time, values)
+        (message.order, times[message.order], values)
         for topic, messages in found.messages.items()
-        for message, time, values in zip(
-            messages, times[topic].tolist(), found.values[topic], strict=True
-        )
+        for message, values in zip(messages, found.values[topic], strict=True)
     ]
     for order, time, values in sorted(arrivals, key=lambda arrival: arrival[0]):
         value_l, value_s, fault = values
