@@ -151,8 +151,21 @@ def _titles(
                 return separator, titles, taken
     if not failures:
         find_columns([], options)
+    for number, line in rows[1:LOOKED_AT]:
+        if any(_has_tensions(number, line, separator, options) for separator in separators):
+            raise RecordingError(
+                f'{failures[0]}; line {number} has them: --skip-rows {number - 1}'
+            )
     # What is wrong with the tensions that were found, rather than that there are none.
     raise next((error for error in failures if 'no column' not in str(error)), failures[0])
+
+
+def _has_tensions(number: int, line: bytes, separator: str, options: TableOptions) -> bool:
+    try:
+        find_columns(_header(number, line, separator, as_comment=False), options)
+    except RecordingError:
+        return False
+    return True
 
 
 def _header(number: int, line: bytes, separator: str, *, as_comment: bool) -> list[str]:
