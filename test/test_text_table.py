@@ -41,6 +41,8 @@ LABVIEW = (
             ('separated by semicolon', 'decimals are written with a comma'),
         ),
         ('time\ttension_l\ttension_s\n0\t1\t1.5\n1\t1\t1.6\n', ('separated by tab',)),
+        ('sep=;\ntime;tension_l;tension_s\n0;1;1.5\n1;1;1.6\n', ('separated by semicolon',)),
+        ('time;tension_l;tension_s\n0;1;1.5;\n1;1;1.6;\n', ('separated by semicolon',)),
         ('time|tension_l|tension_s\n0|1|1.5\n1|1|1.6\n', ('separated by bar',)),
         ('time tension_l  tension_s\n0 1 1.5\n1   1 1.6\n', ('separated by space',)),
         ('time,tension_l,tension_s\n"0,0","1,0","1,5"\n"1,0",1,"1,6"\n', ('with a comma',)),
@@ -122,6 +124,12 @@ def test_what_is_not_sure_is_refused_with_the_option_that_reads_it(file, text, o
         [(1.5, 2.5)],
         [(1.0, 1.5)],
     )
+
+
+@pytest.mark.parametrize('word', ['NaN', 'NA', 'N/A', '#N/A', 'null', 'None', '-1.#IND'])
+def test_what_programs_write_for_no_number_is_none(file, word):
+    recording = load_recording(file(f'tension_l,tension_s\n1,1.5\n1,{word}\n')).whole()
+    assert math.isnan(recording.tension_s[1])
 
 
 def test_commas_between_columns_and_in_numbers_are_not_guessed_at(file):

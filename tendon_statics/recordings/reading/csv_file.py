@@ -15,10 +15,14 @@ from ..recording import Recording
 from .columns import Column, Columns, find_columns
 from .table import table_recording
 from .table_options import TableOptions
-from .text_form import TextForm, bare, recognise
+from .text_form import recognise
+from .text_lines import TextForm, bare
 from .time_column import is_iso, times_of, times_of_iso
 
 LINE_ENDS = (b'\n', b'\r')
+
+MISSING = {'', 'na', 'n/a', '#n/a', '<na>', 'null', 'none', '-nan', '-1.#ind', '1.#qnan'}
+"""What programs write for no number, beside nan"""
 
 MOST_SHOWN = 80
 """Characters of a damaged line that are shown"""
@@ -138,13 +142,15 @@ class _Rows:
         return column.factor * self._plain(fields[column.place])
 
     def _plain(self, text: str) -> float:
+        if text.casefold() in MISSING:
+            return math.nan
         if '_' in text:
             raise ValueError(text)  # Python takes 1_5 for 15.
         if self._form.decimal == ',':
             if '.' in text:
                 raise ValueError(text)  # a point between thousands, perhaps
             text = text.replace(',', '.')
-        return float(text) if text else math.nan
+        return float(text)
 
 
 def _shown(line: bytes) -> str:

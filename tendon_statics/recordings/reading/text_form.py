@@ -2,77 +2,27 @@
 
 from __future__ import annotations
 
-import codecs
 import csv
+import dataclasses
 import re
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 from ..errors import RecordingError
 from .columns import find_columns
+from .labview import LABVIEW, labview_form
 from .table_options import SEPARATORS, TableOptions
+from .text_lines import Line, TextForm, separator_name, split
 from .units import UNITS, split_title
 
 COMMENTS = ('#', '%')
 """What a line begins with that is left alone, unless it has the titles"""
 
-LABVIEW = 'LabVIEW Measurement'
-LABVIEW_END = '***End_of_Header***'
-
 LOOKED_AT = 100
 """Rows that tell how numbers are written"""
 
+_EXCEL_SEPARATOR = re.compile(rb'"?sep=(.)"?')
 _DECIMAL_COMMA = re.compile(r'[-+]?\d*,\d+(?:[eE][-+]?\d+)?')
 _DECIMAL_POINT = re.compile(r'[-+]?\d*\.\d*(?:[eE][-+]?\d+)?')
-_NAMES = {character: name for name, character in SEPARATORS.items()}
-
-Line = tuple[int, bytes]
-"""Number in the file, from 1, and content with its end"""
-
-
-class TextForm(NamedTuple):
-    """How the rows of a text file are read."""
-
-    titles: list[str]
-    separator: str
-    decimal: str
-    rows: list[Line]
-    notes: list[str]
-    """What was recognised that differs from plain CSV"""
-
-    def fields(self, line: bytes) -> list[str]:
-        """Split a row.
-
-        Raises
-        ------
-        ValueError, csv.Error
-            If it is no text in UTF-8 without NUL, or not quoted soundly.
-        """
-        return split(line, self.separator)
-
-
-def bare(content: bytes, options: TableOptions) -> tuple[bytes, list[str]]:
-    """Return a file's content in UTF-8 without mark, and what it was in, if anything else.
-
-    Raises
-    ------
-    RecordingError
-        If it is UTF-16 without a mark.
-    """
-    if options.encoding is not None:
-        text = content.decode(options.encoding, errors='replace')
-        return text.lstrip('\ufeff').encode(), [f'encoding: {options.encoding}']
-    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        text = content.decode('utf-16', errors='replace')
-        if not text.strip():
-            raise RecordingError('it is not a text file with a table, but empty')
-        return text.encode(), ['encoding: UTF-16']
-    if content[1:40:2].count(0) > 10 or content[0:40:2].count(0) > 10:
-        raise RecordingError(
-            'it is not a text file in UTF-8: it looks like UTF-16 without a byte-order mark, '
-            'which --encoding utf-16-le or utf-16-be reads'
-        )
-    return content.removeprefix(codecs.BOM_UTF8), []
 
 
 def recognise(content: bytes, options: TableOptions) -> TextForm:
@@ -86,32 +36,33 @@ def recognise(content: bytes, options: TableOptions) -> TextForm:
     """
     lines = [line for line in _lines(content) if line[0] > options.skip_rows and line[1].strip()]
     if lines and lines[0][1].startswith(LABVIEW.encode()):
-        return _labview(lines, options)
+        return labview_form(lines, options)
+    told = _EXCEL_SEPARATOR.fullmatch(lines[0][1].strip()) if lines else None
+    if told is not None:  # as Excel writes, and reads, it
+        lines = lines[1:]
+        options = dataclasses.replace(options, separator=told[1].decode())
     comments = [line for line in lines if _is_comment(line[1])]
     rows = [line for line in lines if not _is_comment(line[1])]
     separator, titles, at = _titles(comments, rows, options)
     notes = []
     if separator != ',':
-        notes.append(f'columns are separated by {_NAMES.get(separator, separator)}')
+        notes.append(f'columns are separated by {separator_name(separator)}')
     titles, rows, said = _with_units_row(titles, rows[at:], separator)
+    if rows and _ends_with_separator(rows[0][1], separator, len(titles)):
+        titles = [*titles, '']
     decimal = _decimal(rows, separator, titles, options)
     if decimal != '.':
         notes.append('decimals are written with a comma')
     return TextForm(titles, separator, decimal, rows, notes + said)
 
 
-def split(line: bytes, separator: str) -> list[str]:
-    """Split a line into its fields, without the blanks around them."""
-    text = line.decode().rstrip('\r\n')
-    if '\0' in text:
-        raise ValueError('a NUL')
-    if separator == ' ':
-        return text.split()
-    if '"' in text:
-        fields = next(csv.reader([text], delimiter=separator))
-    else:
-        fields = text.split(separator)
-    return [field.strip() for field in fields]
+def _ends_with_separator(line: bytes, separator: str, count: int) -> bool:
+    """Whether a row has an empty field more than there are titles, as data loggers write it."""
+    try:
+        fields = split(line, separator)
+    except (ValueError, csv.Error):
+        return False
+    return len(fields) == count + 1 and fields[-1] == ''
 
 
 def _lines(content: bytes) -> Iterator[Line]:
@@ -247,52 +198,3 @@ def _decimal(
             'which separates decimals'
         )
     return ',' if with_comma else '.'
-
-
-def _labview(lines: list[Line], options: TableOptions) -> TextForm:
-    """Read the preamble of a LabVIEW measurement file.
-
-    Raises
-    ------
-    RecordingError
-        If no titles follow it.
-    """
-    header: dict[str, str] = {}
-    ends = [at for at, (_, line) in enumerate(lines) if line.startswith(LABVIEW_END.encode())]
-    start = next(
-        (at for at, (_, line) in enumerate(lines) if line.startswith(b'X_Value')),
-        ends[-1] + 1 if ends else len(lines),
-    )
-    for _, line in lines[:start]:
-        key, _, value = (
-            line.decode(errors='replace').strip().partition('\t' if b'\t' in line else ',')
-        )
-        header.setdefault(key, value.strip())
-    separator = options.separator or {'Tab': '\t', 'Comma': ','}.get(
-        header.get('Separator', 'Tab'), '\t'
-    )
-    decimal = options.decimal or header.get('Decimal_Separator', '.')
-    if start >= len(lines):
-        raise RecordingError('after the preamble of LabVIEW there are no titles')
-    titles = split(lines[start][1], separator)
-    if titles and titles[0] == 'X_Value':
-        titles[0] = 'no time' if header.get('X_Columns') == 'No' else 'time'
-    rows = [line for line in lines[start + 1 :] if not line[1].startswith(LABVIEW_END.encode())]
-    if titles and titles[-1] == 'Comment':
-        # LabVIEW ends its rows before it where there is none.
-        titles = titles[:-1]
-        rows = [(number, _cut(line, separator, len(titles))) for number, line in rows]
-    find_columns(titles, options)
-    notes = [
-        'a measurement file of LabVIEW: columns are separated by '
-        f'{_NAMES.get(separator, separator)}, decimals by {decimal!r}'
-    ]
-    return TextForm(titles, separator, decimal, rows, notes)
-
-
-def _cut(line: bytes, separator: str, count: int) -> bytes:
-    """Return a row without what stands after so many fields."""
-    mark = separator.encode()
-    if line.count(mark) < count:
-        return line
-    return mark.join(line.split(mark)[:count]) + b'\n'
