@@ -22,7 +22,15 @@ setup(
     install_requires=['setuptools', 'PyYAML', 'numpy>=1.26.4'],
     extras_require={
         'calibration': ['scipy>=1.11.4'],
-        'recordings': ['mcap>=1.1', 'pyarrow>=15', 'rosbags>=0.10.8', 'tqdm>=4.64'],
+        'recordings': [
+            'lz4>=4',
+            'mcap>=1.1',
+            'pyarrow>=15',
+            'rosbags>=0.10.8',
+            'tqdm>=4.64',
+            'zstandard>=0.22',
+        ],
+        'matlab': ['pymatreader>=1.0'],
         'plot': ['matplotlib'],
         'test': ['hypothesis', 'mpmath', 'pytest', 'scipy>=1.11.4', 'xacro'],
     },

@@ -11,8 +11,8 @@ from bags import ORIGIN, write_bag
 from programs import assert_refused, run
 
 from tendon_statics.recordings.errors import RecordingError
-from tendon_statics.recordings.load import load_recording
-from tendon_statics.recordings.topics import BagTopics
+from tendon_statics.recordings.reading.load import load_recording
+from tendon_statics.recordings.reading.topics import BagTopics
 
 
 def session(count=10):
@@ -445,6 +445,7 @@ def test_what_a_recorder_did_not_finish_is_undone_and_named(tmp_path, database):
 def test_in_a_folder_a_file_that_is_no_bag_is_named_and_the_others_are_read(tmp_path):
     file = write_bag(tmp_path / 'bag', session())
     (file.parent / 'other.mcap').write_bytes(b'')
+    (file.parent / 'metadata.yaml').unlink()
     recording = load_recording(file.parent)
     assert len(recording) == 10
     assert recording.damage == ('other.mcap: it is not an MCAP file',)

@@ -13,8 +13,8 @@ from std_msgs.msg import Float64, Float64MultiArray
 
 from tendon_statics import solve
 from tendon_statics.node.health import Health, Level
-from tendon_statics.node.tension_source import Reason
 from tendon_statics.physics import StickSlipTracker
+from tendon_statics.tensions.reason import Reason
 
 HELD, SLIPPING, STOP = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0)
 OK, WARN, ERROR, STALE = (

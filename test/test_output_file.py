@@ -11,7 +11,7 @@ import pytest
 from programs import PROGRAM
 from ros_programs import wait_for
 
-from tendon_statics.output_file import OutputError, output_file
+from tendon_statics.files.output_file import OutputError, output_file
 
 
 def write(path, fail=False):

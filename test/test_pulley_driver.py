@@ -14,7 +14,7 @@ from ros_programs import Program, spinning, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
-from tendon_statics.installed_files import installed_config
+from tendon_statics.files.installed_files import installed_config
 from tendon_statics.node.faults import (
     IMPLAUSIBLE_TENSION,
     STAMP_FAULTS,
@@ -22,7 +22,7 @@ from tendon_statics.node.faults import (
     FaultMaker,
     FaultSettings,
 )
-from tendon_statics.recordings.load import load_recording
+from tendon_statics.recordings.reading.load import load_recording
 
 ROWS = load_recording(installed_config('demo_tensions.csv')).tensions()
 TOPICS = {

@@ -5,7 +5,8 @@ import math
 
 import pytest
 from designs import cases, random_cases
-from hypothesis import given, settings
+from hypothesis import given
+from thoroughness import examples
 
 from tendon_statics import JointDesign
 from tendon_statics.physics.load import UPRIGHT

@@ -16,9 +16,9 @@ from ros_programs import Listener, Program, spinning, wait_for
 from tendon_statics_interfaces.msg import Estimate
 
 from tendon_statics.command_line.tables import markdown_table
-from tendon_statics.installed_files import installed_config
+from tendon_statics.files.installed_files import installed_config
 from tendon_statics.physics import paper
-from tendon_statics.recordings.load import load_recording
+from tendon_statics.recordings.reading.load import load_recording
 
 DETERMINED = (Estimate.EQUILIBRIUM, Estimate.DRIVEN_TO_STOP)
 PAPERS_CASE = (paper.TENSION_L, paper.TENSION_S)

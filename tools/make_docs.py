@@ -23,7 +23,8 @@ from tendon_statics.command_line.main import main as run
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = (
     'README.md',
-    *('docs/calibration.md', 'docs/model.md', 'docs/node.md', 'docs/rig.md', 'docs/security.md'),
+    *('docs/calibration.md', 'docs/recordings.md', 'docs/model.md', 'docs/node.md'),
+    *('docs/rig.md', 'docs/security.md'),
 )
 SESSION = 'config/recorded_session.mcap'
 FIGURES = {

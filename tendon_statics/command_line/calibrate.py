@@ -6,13 +6,16 @@ import argparse
 from datetime import date
 from pathlib import Path
 
-from ..design_file import save_design
-from ..output_file import OutputError
+from ..files.design_file import save_design
+from ..files.output_file import OutputError
+from ..physics import Calibration
+from ..recordings.plausible_fit import objections
 from ..recordings.recording import Recording
 from .calibration_options import add_calibration_options, calibration_from, states_text
 from .calibration_text import calibration_text
-from .options import add_design_option, add_format_option, design_from, print_json
-from .recording_options import add_recording_options, recording_from, report_damage
+from .options import add_design_option, add_format_option, print_json
+from .recording_options import add_recording_options, report_damage, unit_and_recording
+from .replay_text import reading_facts
 
 DESIGN_ENDINGS = ('.yaml', '.yml')
 
@@ -35,25 +38,44 @@ def run(options: argparse.Namespace) -> int:
             f'{options.output}: a design is written to a file ending in '
             f'{" or ".join(DESIGN_ENDINGS)}'
         )
-    recording = recording_from(options)
-    calibration = calibration_from(options, design_from(options), recording)
-    text = calibration_text(calibration, recording.name)
-    if options.output is not None and calibration.design is not None:
+    unit, recording = unit_and_recording(options)
+    calibration = calibration_from(options, unit, recording)
+    read = reading_facts(recording, unit.design)
+    text = calibration_text(calibration, recording.name, read)
+    doubts = objections(calibration)
+    if options.output is not None and calibration.design is not None and not doubts:
         provenance = _provenance(options, recording)
-        save_design(options.output, calibration.design, f'{provenance}\n\n{text}')
+        save_design(options.output, calibration.design, f'{provenance}\n\n{text}', unit.parameters)
     if options.format == 'json':
-        damage = list(recording.damage)
-        print_json({'data': recording.name, 'damage': damage, **calibration.as_dict()})
+        print_json(
+            {
+                'data': recording.name,
+                'damage': list(recording.damage),
+                'notes': [note for _, note in read],
+                **calibration.as_dict(),
+            }
+        )
     else:
         print(text)
-    if options.output is not None and calibration.design is None:
-        unread = f'; not all could be read: {recording.damage_summary}' if recording.damage else ''
-        raise OutputError(
-            f'{options.output}: no design is written, since the data do not determine '
-            f'{" and ".join(calibration.undetermined)}; leave out of --fit what you know otherwise'
-            f'{unread}'
-        )
+    if options.output is not None and (calibration.design is None or doubts):
+        raise OutputError(f'{options.output}: {_unwritten(calibration, doubts, recording)}')
     return report_damage(recording)
+
+
+def _unwritten(calibration: Calibration, doubts: list[str], recording: Recording) -> str:
+    """Say why no design is written."""
+    if calibration.design is None:
+        text = (
+            'no design is written, since the data do not determine '
+            f'{" and ".join(calibration.undetermined)}; leave out of --fit what you know otherwise'
+        )
+    else:
+        text = (
+            f'no design is written, since {" and ".join(doubts)}; check units, states and --fit, '
+            'or start from a --design nearer to the unit'
+        )
+    unread = f'; not all could be read: {recording.damage_summary}' if recording.damage else ''
+    return text + unread
 
 
 def _provenance(options: argparse.Namespace, recording: Recording) -> str:

@@ -6,13 +6,17 @@ import argparse
 import dataclasses
 import math
 
-from ..physics import Calibration, JointDesign, calibrate
+from ..files.unit_file import Unit
+from ..physics import Calibration, CalibrationError, calibrate
 from ..physics.calibration import DEFAULT_FIT
 from ..physics.calibration_result import SLIPPING
 from ..recordings.errors import RecordingError
+from ..recordings.hints import hints
 from ..recordings.motion import mark_motion
 from ..recordings.recording import Recording
-from .options import UsageError, add_tension_stddev_option
+from ..recordings.scaling import usable
+from ..recordings.sessions import follow_each_other
+from .options import UsageError, add_tension_stddev_option, tension_stddev_from
 
 
 def add_calibration_options(parser: argparse.ArgumentParser) -> None:
@@ -37,7 +41,7 @@ def add_calibration_options(parser: argparse.ArgumentParser) -> None:
         action='store_true',
         help='every sample is about to slip, as is taken of a recording without states and times',
     )
-    add_tension_stddev_option(parser)
+    add_tension_stddev_option(parser, default=None)
     parser.add_argument(
         '--bend-angle-stddev-deg',
         type=float,
@@ -70,12 +74,14 @@ def states_from(options: argparse.Namespace, recording: Recording) -> Recording:
         return mark_motion(recording, math.radians(options.motion_step_deg))
     if options.all_slipping:
         return dataclasses.replace(recording, state=[SLIPPING] * len(recording))
-    if recording.state is None and recording.time is not None:
-        raise RecordingError(
-            f'the samples of {recording.name} follow each other in time, but have no state that '
-            'says which of them are slipping: take it from the motions of the angle '
-            '(--motion-step-deg), or say that all are (--all-slipping)'
-        )
+    if recording.state is None:
+        why = follow_each_other(recording)
+        if why:
+            raise RecordingError(
+                f'the samples of {recording.name} follow each other in time, as {why}, but have '
+                'no state that says which of them are slipping: take it from the motions of the '
+                'angle (--motion-step-deg), or say that all are (--all-slipping)'
+            )
     return recording
 
 
@@ -86,16 +92,22 @@ def states_text(options: argparse.Namespace) -> str:
     return 'all slipping, as was said' if options.all_slipping else 'those of the recording'
 
 
-def calibration_from(
-    options: argparse.Namespace, design: JointDesign, recording: Recording
-) -> Calibration:
-    """Fit what the options name."""
+def calibration_from(options: argparse.Namespace, unit: Unit, recording: Recording) -> Calibration:
+    """Fit what the options name to the samples that the estimator would take.
+
+    Raises
+    ------
+    CalibrationError, RecordingError
+        If nothing can be fitted; the text has the hints that the recording gives.
+    UsageError
+        If SciPy is missing.
+    """
     try:
         return calibrate(
-            design,
-            states_from(options, recording),
+            unit.design,
+            states_from(options, usable(recording)),
             [name.strip() for name in options.fit.split(',') if name.strip()],
-            tension_stddev=options.tension_stddev,
+            tension_stddev=tension_stddev_from(options, unit),
             bend_angle_stddev=math.radians(options.bend_angle_stddev_deg),
             pressure_stddev=options.pressure_stddev,
         )
@@ -103,3 +115,5 @@ def calibration_from(
         raise UsageError(
             'a calibration needs SciPy: install python3-scipy or pip install scipy'
         ) from None
+    except (CalibrationError, RecordingError) as error:
+        raise type(error)('; '.join([str(error), *hints(recording, unit.design)])) from None

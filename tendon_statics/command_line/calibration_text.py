@@ -68,10 +68,11 @@ def calibration_facts(calibration: Calibration, name: str) -> Facts:
     ]
 
 
-def calibration_text(calibration: Calibration, name: str) -> str:
-    """Everything, as it is printed."""
+def calibration_text(calibration: Calibration, name: str, read: Facts) -> str:
+    """Everything, as it is printed, with how the data were read."""
     titles = ('correlation', *(f'{parameter.name}:' for parameter in calibration.parameters))
-    parts = [fact_lines(calibration_facts(calibration, name))]
+    first, *others = calibration_facts(calibration, name)
+    parts = [fact_lines([first, *read, *others])]
     parts.append(markdown_table(PARAMETER_TITLES, parameter_rows(calibration)))
     if len(calibration.parameters) > 1:
         parts.append(markdown_table(titles, correlation_rows(calibration)))

@@ -14,8 +14,13 @@ from ..recordings.recording import Recording
 from .calibration_options import add_calibration_options, calibration_from
 from .figure_recording import MANY
 from .figures import BLUE, GREY, SKY, VERMILION
-from .options import add_design_option, design_from
-from .recording_options import add_recording_options, recording_from, report_damage
+from .options import add_design_option
+from .recording_options import (
+    add_recording_options,
+    report_damage,
+    report_notes,
+    unit_and_recording,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,9 +38,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def draw(drawing: Figure, options: argparse.Namespace) -> int:
     """Read, fit and draw; return the exit code."""
-    recording = recording_from(options)
-    calibration = calibration_from(options, design_from(options), recording)
+    unit, recording = unit_and_recording(options)
+    calibration = calibration_from(options, unit, recording)
     draw_calibration(drawing, calibration, recording)
+    report_notes(unit, recording)
     return report_damage(recording)
 
 

@@ -8,7 +8,7 @@ from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from ..output_file import output_file
+from ..files.output_file import output_file
 from .options import UsageError
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from contextlib import suppress
 from importlib import import_module
 from typing import NoReturn
 
-from ..output_file import OutputError
+from ..files.output_file import OutputError
 from ..physics.errors import (
     BendAngleError,
     CalibrationError,
@@ -28,6 +28,7 @@ VERBS = {
     'calibrate': 'fit a design to a recorded session, with the uncertainty of every value',
     'replay': 'every sample of a recorded session through the model',
     'report': 'a recorded session and its calibration as one HTML file',
+    'tare': 'the biases of load cells from a recording of slack cables',
     'sweep': 'a map of the answers over both cable tensions, as a file',
     'track': 'follow the unit, with memory, through the tensions of a CSV file',
     'invert': 'the tensions at which the unit is about to slip at a bend angle',

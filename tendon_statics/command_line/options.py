@@ -6,8 +6,12 @@ import argparse
 import json
 import math
 
-from ..design_file import default_design_path, load_design
+from ..files.design_file import default_design_path
+from ..files.unit_file import Unit, load_unit
 from ..physics import JointDesign
+
+TENSION_STDDEV = 0.01
+"""N"""
 
 
 class UsageError(Exception):
@@ -15,17 +19,33 @@ class UsageError(Exception):
 
 
 def add_design_option(parser: argparse.ArgumentParser) -> None:
-    """Add ``--design FILE``."""
+    """Add ``--design FILE`` and ``--node NAME``."""
     parser.add_argument(
         '--design',
         metavar='FILE',
         help='joint design, a ROS parameter file; default: the preliminary design',
     )
+    parser.add_argument(
+        '--node',
+        metavar='NAME',
+        default='',
+        help='the estimator whose parameters are taken from that file, say /left/estimator; '
+        'default: the only one that it names, or any',
+    )
+
+
+def unit_from(options: argparse.Namespace) -> Unit:
+    """Return the unit that ``--design`` names, or one of the installed default design."""
+    return load_unit(options.design or default_design_path(), _full_name(options.node))
 
 
 def design_from(options: argparse.Namespace) -> JointDesign:
-    """Return the design that ``--design`` names, or the installed default."""
-    return load_design(options.design or default_design_path())
+    """Return the design of that unit."""
+    return unit_from(options).design
+
+
+def _full_name(node: str) -> str:
+    return node if not node or node.startswith('/') else f'/{node}'
 
 
 def add_tension_options(
@@ -44,15 +64,25 @@ def add_tension_options(
         )
 
 
-def add_tension_stddev_option(parser: argparse.ArgumentParser) -> None:
-    """Add ``--tension-stddev N``."""
+def add_tension_stddev_option(
+    parser: argparse.ArgumentParser, default: float | None = TENSION_STDDEV
+) -> None:
+    """Add ``--tension-stddev N``; without a default it is that of the design file."""
+    of_file = '' if default is not None else 'that of the design file, or '
     parser.add_argument(
         '--tension-stddev',
         type=_deviation,
-        default=0.01,
+        default=default,
         metavar='N',
-        help='standard deviation of each tension in N; default: %(default)s',
+        help=f'standard deviation of each tension in N; default: {of_file}{TENSION_STDDEV}',
     )
+
+
+def tension_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
+    """Return the option, or what the design file says, or the default, in N."""
+    if options.tension_stddev is not None:
+        return float(options.tension_stddev)
+    return float(unit.get('tension_stddev') or TENSION_STDDEV)
 
 
 def _deviation(text: str) -> float:

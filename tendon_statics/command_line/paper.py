@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 
-from ..design_file import default_design_path, load_design
+from ..files.design_file import default_design_path, load_design
 from ..physics import JointDesign, Regime, contact_coefficients, paper, solve
 from .tables import markdown_table
 

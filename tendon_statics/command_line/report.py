@@ -11,7 +11,7 @@ from importlib.metadata import version
 from pathlib import Path
 from string import Template
 
-from ..output_file import OutputError, output_file
+from ..files.output_file import OutputError, output_file
 from ..physics import Calibration, CalibrationError, JointDesign, design_fields
 from ..recordings.errors import RecordingError
 from ..recordings.recording import Recording
@@ -26,8 +26,8 @@ from .calibration_text import (
 from .figure_calibration import draw_calibration
 from .figure_recording import draw_replay
 from .figures import svg_of
-from .options import add_design_option, design_from
-from .recording_options import add_recording_options, recording_from, report_damage
+from .options import add_design_option
+from .recording_options import add_recording_options, report_damage, unit_and_recording
 from .replay import add_estimation_options, replay_from
 from .replay_text import replay_facts
 from .tables import Facts
@@ -79,14 +79,14 @@ def run(options: argparse.Namespace) -> int:
     path: Path = options.output
     if path.suffix != '.html':
         raise OutputError(f'{path}: a report is written to a file ending in .html')
-    recording = recording_from(options)
-    start = design_from(options)
+    unit, recording = unit_and_recording(options)
+    start = unit.design
     parts = []
     if recording.damage:
         parts.append(_warning(f'Not all of it could be read: {recording.damage_summary}'))
     note = ''
     try:
-        calibration = calibration_from(options, start, recording)
+        calibration = calibration_from(options, unit, recording)
     except (CalibrationError, RecordingError) as error:
         design, of = start, _start_name(options)
         fitted = ['<h2>Calibration</h2>', _warning(f'Nothing could be fitted: {error}')]
@@ -96,10 +96,10 @@ def run(options: argparse.Namespace) -> int:
         if calibration.design is None:
             of = f'{_start_name(options)}, since the fit does not determine a design'
         fitted = _calibration_part(calibration, recording, _start_name(options))
-    replayed = replay_from(options, design, recording)
+    replayed = replay_from(options, unit, design, recording)
     parts += [
         f'<h2>Recording, with {escape(of)}</h2>',
-        _facts(replay_facts(replayed)),
+        _facts(replay_facts(replayed, design)),
         svg_of(
             lambda drawing: draw_replay(drawing, design, replayed),
             figure_recording.SIZE,

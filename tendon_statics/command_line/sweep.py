@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..output_file import OutputError
+from ..files.output_file import OutputError
 from ..physics import EquilibriumBatch
 from ..physics.batch import solve_batch
-from ..recordings.table_output import write_arrays, write_table
+from ..recordings.replay.table_output import write_arrays, write_table
 from .options import UsageError, add_design_option, design_from
 from .progress import with_progress
 from .tables import markdown_table

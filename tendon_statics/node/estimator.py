@@ -26,6 +26,7 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
+from ..files.number_parameter import SettingError
 from ..physics import (
     BendAngleError,
     Equilibrium,
@@ -33,10 +34,11 @@ from ..physics import (
     TensionError,
     solve,
 )
+from ..tensions.cable_scale import scaled, worse
+from ..tensions.reason import Reason
 from . import messages
 from .health import Health, Level
 from .lost_messages import LostMessages
-from .number_parameter import SettingError
 from .outputs import INVALID, STALE, Outputs
 from .program import StartError
 from .settings import Settings, declare_settings, read_settings
@@ -44,10 +46,8 @@ from .tension_source import (
     ArraySource,
     JointStateSource,
     Reading,
-    Reason,
     TensionSource,
     WrenchPairSource,
-    calibrated,
 )
 from .unknown_parameters import warn_of_unknown_parameters
 from .waiting_messages import waiting_messages
@@ -364,12 +364,11 @@ class Estimator(LifecycleNode):
 
     def _on_reading(self, reading: Reading) -> None:
         settings = self._settings
-        tension_l, fault_l = calibrated('tension_l', reading.value_l, settings.cable_l)
-        tension_s, fault_s = calibrated('tension_s', reading.value_s, settings.cable_s)
-        faults = [fault for fault in (fault_l, fault_s) if fault]
-        if faults:
-            # The implausible one first, since it is an error.
-            self._on_drop(*max(faults, key=lambda fault: fault[0] is Reason.IMPLAUSIBLE))
+        tension_l, fault_l = scaled('tension_l', reading.value_l, settings.cable_l)
+        tension_s, fault_s = scaled('tension_s', reading.value_s, settings.cable_s)
+        fault = worse(fault_l, fault_s)
+        if fault:
+            self._on_drop(*fault)
             return
         if self._health.stale and not self._is_corrected():
             self._doubt()

@@ -9,7 +9,7 @@ from enum import IntEnum
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 from ..physics import Equilibrium, Regime
-from .tension_source import Reason
+from ..tensions.reason import Reason
 
 
 class Level(IntEnum):

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 
-from ..design_file import default_design_path, load_design
+from ..files.design_file import default_design_path, load_design
+from ..files.number_parameter import NumberParameter, SettingError
+from ..files.unit_file import cable_scale
+from ..files.unit_parameters import NUMBERS
 from ..physics import (
     BendAngleError,
     DesignError,
@@ -19,44 +21,10 @@ from ..physics import (
     design_fields,
 )
 from ..physics.admissible import check_bend_angle
-from ..physics.tensions import MAX_TENSION
-from .number_parameter import NumberParameter, SettingError
-from .parameters import BIASES, CABLES, GAINS, declare_number
-from .tension_source import Calibration
+from ..tensions.cable_scale import CableScale
+from .parameters import declare_number
 
 PREFIX = 'design.'
-
-
-MAX_TENSIONS = tuple(
-    NumberParameter(
-        *(f'{cable}.max_tension', 1000.0, 0.001, MAX_TENSION, 'N'),
-        'above it a tension is implausible',
-    )
-    for cable in CABLES
-)
-
-NUMBERS = (
-    NumberParameter(
-        *('tension_stddev', 0.01, 0.0, 1000.0, 'N'),
-        'standard deviation of each measured tension, the two independent',
-    ),
-    NumberParameter(
-        *('initial_bend_angle', 0.0, -0.5 * math.pi, 0.5 * math.pi, 'rad'),
-        'where a tracked unit is at the start and after ~/reset, within its stops',
-    ),
-    NumberParameter(
-        *('input_timeout', 0.5, 0.001, 3600.0, 's'),
-        'without valid tensions for so long the input is stale',
-    ),
-    NumberParameter(
-        *('max_skew', 0.005, 0.0, 10.0, 's'),
-        'wrench_pair: most that the stamps of two load cells may differ in a pair',
-    ),
-    *GAINS,
-    *BIASES,
-    *MAX_TENSIONS,
-)
-"""Those that may change while the node runs, beside the design's"""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,8 +36,8 @@ class Settings:
     initial_bend_angle: float
     input_timeout: float
     max_skew: float
-    cable_l: Calibration
-    cable_s: Calibration
+    cable_l: CableScale
+    cable_s: CableScale
 
     @classmethod
     def from_values(cls, values: Mapping[str, object]) -> Settings:
@@ -98,8 +66,8 @@ class Settings:
             initial_bend_angle=initial_bend_angle,
             input_timeout=number['input_timeout'],
             max_skew=number['max_skew'],
-            cable_l=_calibration('cable_l', number),
-            cable_s=_calibration('cable_s', number),
+            cable_l=cable_scale('cable_l', number),
+            cable_s=cable_scale('cable_s', number),
         )
 
 
@@ -193,12 +161,3 @@ def _design(values: Mapping[str, object]) -> JointDesign:
         )
     except DesignError as error:
         raise SettingError(f'{PREFIX if error.key else ""}{error}') from None
-
-
-def _calibration(cable: str, number: Mapping[str, float]) -> Calibration:
-    calibration = Calibration(*(number[f'{cable}.{field}'] for field in Calibration._fields))
-    if calibration.gain == 0.0:
-        raise SettingError(
-            f'{cable}.gain is 0.0, with which the tension does not follow what is measured'
-        )
-    return calibration

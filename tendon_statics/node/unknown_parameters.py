@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from rclpy.node import Node
 
+from ..files.unit_parameters import NUMBERS
 from ..physics import design_fields
 from .faults import fault_parameters
-from .settings import NUMBERS, PREFIX
+from .settings import PREFIX
 from .wiring import Wiring
 
 ESTIMATOR_PARAMETERS = (

@@ -47,6 +47,14 @@ class Recording:
     """Where it comes from, without the folder"""
     damage: tuple[str, ...] = ()
     """What of the file could not be read, place by place, each in one line"""
+    faults: Sequence[str] | None = None
+    """Why a sample holds no pair of tensions, a `Reason` or empty; None: nothing is known"""
+    in_newtons: bool = False
+    """Whether the tensions are in N for certain, so that no gain or bias applies to them"""
+    readings: tuple[Floats, Floats] | None = None
+    """What was recorded of cables l and s, where a gain and bias made tensions of it"""
+    notes: tuple[str, ...] = ()
+    """What was recognised in the file, and what else is to be known of it, each in one line"""
 
     def __post_init__(self) -> None:
         """Take whatever NumPy makes an array of.
@@ -65,7 +73,11 @@ class Recording:
         if self.state is not None:
             object.__setattr__(self, 'state', list(self.state))
             _check_length('state', self.state, len(self))
-        object.__setattr__(self, 'damage', tuple(one_line(place) for place in self.damage))
+        if self.faults is not None:
+            object.__setattr__(self, 'faults', list(self.faults))
+            _check_length('faults', self.faults, len(self))
+        for lines in ('damage', 'notes'):
+            object.__setattr__(self, lines, tuple(map(one_line, getattr(self, lines))))
 
     def __len__(self) -> int:
         return len(self.tension_l)
@@ -73,6 +85,34 @@ class Recording:
     def tensions(self) -> list[tuple[float, float]]:
         """T_l and T_s of every sample, as plain numbers in N."""
         return list(zip(self.tension_l.tolist(), self.tension_s.tolist(), strict=True))
+
+    def part(self, which: npt.NDArray[np.bool_]) -> Recording:
+        """Return a recording of some of the samples, given as an array of shape ``(n,)``."""
+        chosen = np.flatnonzero(which)
+
+        def texts(values: Sequence[str] | None) -> list[str] | None:
+            return None if values is None else [values[place] for place in chosen.tolist()]
+
+        def numbers(values: Floats | None) -> Floats | None:
+            return None if values is None else values[chosen]
+
+        readings = self.readings
+        return dataclasses.replace(
+            self,
+            tension_l=self.tension_l[chosen],
+            tension_s=self.tension_s[chosen],
+            bend_angle=numbers(self.bend_angle),
+            pressure=numbers(self.pressure),
+            time=numbers(self.time),
+            state=texts(self.state),
+            faults=texts(self.faults),
+            readings=None if readings is None else (readings[0][chosen], readings[1][chosen]),
+        )
+
+    @property
+    def known_faults(self) -> Sequence[str]:
+        """Why each sample holds no pair of tensions; empty where nothing is known."""
+        return [''] * len(self) if self.faults is None else self.faults
 
     @property
     def damage_summary(self) -> str:
@@ -111,7 +151,7 @@ class Recording:
         if self.disorder:
             raise RecordingError(
                 f'{self.name}: {self.disorder}: sort it by time, or, if its order is right, leave '
-                'the times out'
+                'the times out or, of a bag, take those of recording (--clock log)'
             )
         return self
 

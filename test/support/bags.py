@@ -38,10 +38,10 @@ def text(value: str) -> Any:
     return STORE.types['std_msgs/msg/String'](data=value)
 
 
-def header(time: float | None) -> Any:
-    """A header with a stamp in s after `ORIGIN`, or none."""
+def header(time: float | None, origin: int = ORIGIN) -> Any:
+    """A header with a stamp in s after an origin in ns, or none."""
     stamp = STORE.types['builtin_interfaces/msg/Time']
-    nanoseconds = 0 if time is None else ORIGIN + round(time * 1e9)
+    nanoseconds = 0 if time is None else origin + round(time * 1e9)
     seconds, rest = divmod(nanoseconds, 10**9)
     return STORE.types['std_msgs/msg/Header'](
         stamp=stamp(sec=seconds, nanosec=rest), frame_id='joint'
@@ -53,10 +53,11 @@ def joint_state(
     effort: Iterable[float] = (),
     position: Iterable[float] = (),
     time: float | None = None,
+    origin: int = ORIGIN,
 ) -> Any:
     """A ``JointState``."""
     return STORE.types['sensor_msgs/msg/JointState'](
-        header=header(time),
+        header=header(time, origin),
         name=list(names),
         position=np.array(list(position)),
         velocity=np.array([]),

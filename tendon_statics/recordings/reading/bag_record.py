@@ -1,0 +1,26 @@
+"""A message as it stands in a bag's file, whatever the kind of that."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+PURPOSE = 'ROS bags'
+
+UNKNOWN_TYPE = 'message of unknown type'
+
+CDR, ROS1 = 'cdr', 'ros1'
+
+
+class Record(NamedTuple):
+    """A message before it is decoded; of a damaged file the fields may hold anything."""
+
+    topic: str
+    kind: str
+    definition: str
+    """What the bag says of the fields of that type; empty if nothing"""
+    log_time: Any
+    """When it was recorded, in ns"""
+    data: Any
+    """Its content"""
+    encoding: str = CDR
+    """Of its content: `CDR` or `ROS1`"""
