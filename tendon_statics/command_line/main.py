@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import signal
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from ..files.output_file import OutputError
 from ..physics.errors import (
     BendAngleError,
     CalibrationError,
     DesignError,
+    LoadError,
     TensionError,
     UnreachableError,
 )
@@ -42,6 +44,7 @@ VERBS = {
 ERRORS = (
     UsageError,
     DesignError,
+    LoadError,
     TensionError,
     BendAngleError,
     UnreachableError,
@@ -54,7 +57,14 @@ ERRORS = (
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser whose errors are one line."""
+    """A parser whose errors are one line, and which takes -1e-3 for a number."""
+
+    def __init__(self, *args: Any, **more: Any) -> None:
+        super().__init__(*args, **more)
+        # Python before 3.14 knows -0.001 only, and takes -1e-3 for an option.
+        self._negative_number_matcher = re.compile(
+            r'-(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$', re.IGNORECASE
+        )
 
     def error(self, message: str) -> NoReturn:
         raise UsageError(f'{message} (see {self.prog} --help)')

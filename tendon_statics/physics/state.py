@@ -186,7 +186,7 @@ class Equilibrium(_Fields):
     def bend_angle_derivatives(self) -> Derivatives | None:
         """∂θ/∂x in rad per SI unit, for the tilt of the base and each number of the design.
 
-        Of `solve`; None also where they are infinite. At the stop the angle follows the stop alone.
+        Of `solve`; None also where they are infinite. At the stop only the stop moves the angle.
         """
         return None if self._derivatives is None else self._derivatives[0]
 
