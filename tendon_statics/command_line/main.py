@@ -12,16 +12,7 @@ from contextlib import suppress
 from importlib import import_module
 from typing import Any, NoReturn
 
-from ..files.output_file import OutputError
-from ..physics.errors import (
-    BendAngleError,
-    CalibrationError,
-    DesignError,
-    LoadError,
-    TensionError,
-    UnreachableError,
-)
-from ..recordings.errors import RecordingError
+from ..physics.errors import TendonStaticsError
 from .options import UsageError
 
 VERBS = {
@@ -39,21 +30,6 @@ VERBS = {
     'plot': 'figures: Eq. (4), the unit, its hysteresis, maps, recordings, calibrations',
 }
 """Verb → what it does; the module of the same name has the rest."""
-
-
-ERRORS = (
-    UsageError,
-    DesignError,
-    LoadError,
-    TensionError,
-    BendAngleError,
-    UnreachableError,
-    CalibrationError,
-    RecordingError,
-    OutputError,
-    OSError,
-)
-"""What is the user's to mend"""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -112,7 +88,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     except KeyboardInterrupt as interruption:
         return 128 + (interruption.args or (signal.SIGINT,))[0]
-    except ERRORS as error:
+    except (TendonStaticsError, OSError) as error:
         print(f'tendon-statics: {error}', file=sys.stderr)
         if isinstance(error, OSError):
             _drop_output()

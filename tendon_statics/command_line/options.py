@@ -8,13 +8,13 @@ import math
 
 from ..files.design_file import default_design_path
 from ..files.unit_file import Unit, load_unit
-from ..physics import UPRIGHT, JointDesign, Load
+from ..physics import UPRIGHT, JointDesign, Load, TendonStaticsError
 
 TENSION_STDDEV = 0.01
 """N"""
 
 
-class UsageError(Exception):
+class UsageError(TendonStaticsError):
     """The command line asks for what cannot be; the text is for the user."""
 
 
