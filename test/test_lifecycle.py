@@ -73,8 +73,9 @@ def test_unless_active_it_publishes_nothing_and_services_refuse(state, listener)
 
 
 def test_deactivated_it_stops_and_says_so_and_goes_on_when_activated(listener):
-    with listener.estimator() as program:
+    with listener.estimator('-p', 'input_timeout:=600.0') as program:
         assert listener.answer(*SLIPPING) == 'equilibrium'
+        wait_for('all of the answer', listener.hears_all)
         said = len(listener.stale_regimes)
         since = len(listener.diagnostics)
         assert listener.change_state('deactivate')
@@ -157,7 +158,9 @@ def test_a_transition_that_does_not_exist_is_refused_and_harms_nothing(listener)
 
 
 def test_a_tracked_unit_may_move_while_nobody_looks(listener):
-    with listener.estimator('-p', 'estimation:=tracking', '-p', 'initial_bend_angle:=0.1'):
+    # With so much time that it is not lost from sight on a busy machine.
+    tracking = ('estimation:=tracking', 'initial_bend_angle:=0.1', 'input_timeout:=600.0')
+    with listener.estimator(*(part for value in tracking for part in ('-p', value))):
         assert listener.reset().success
         listener.answer(*HELD)
         wait_for('the estimate', lambda: listener.estimates)
@@ -196,7 +199,7 @@ def test_a_signal_under_load_ends_it_in_every_state(number, state, listener):
         thread.start()
         wait_for('the load', lambda: sent[0] > 2000)
         try:
-            assert program.end(number, time_limit=2.0) == 0, program.output()
+            assert program.end(number, within=2.0) == 0, program.output()
         finally:
             ended.set()
             thread.join()

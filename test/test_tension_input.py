@@ -179,9 +179,12 @@ def test_markers_only_if_asked_for(listener):
         listener.answer(*SLIPPING)
         assert listener.count_publishers('/estimator/markers') == 0
     with listener.estimator('-p', 'markers:=true', '-p', 'input_timeout:=0.2'):
-        wait_for('a drawing', lambda: listener.answer(*SLIPPING) and drawn)
-        drawn.clear()
-        wait_for('its end', lambda: drawn and drawn[-1].markers[0].action == Marker.DELETEALL)
+
+        def actions() -> list[int]:
+            return [message.markers[0].action for message in drawn]
+
+        wait_for('a drawing', lambda: listener.answer(*SLIPPING) and Marker.ADD in actions())
+        wait_for('its end', lambda: actions()[-1] == Marker.DELETEALL)
 
 
 def test_with_sensor_data_qos_any_driver_fits():
