@@ -348,6 +348,19 @@ class Listener(Node):
         """Whether something came of results on every topic."""
         return all(self._stores)
 
+    def has_all(self) -> bool:
+        """Whether all has come that belongs to the regimes that have; unless they are tracked."""
+        answered = [regime for regime in self.regimes if regime != 'invalid']
+        angles = sum(not math.isnan(estimate.bend_angle) for estimate in self.estimates)
+        pressures = sum(not math.isnan(estimate.pressure) for estimate in self.estimates)
+        of_angles = (self.bend_angles, self.slip_margins, self.unit_poses, self.joint_states)
+        return (
+            len(self.estimates) == len(answered)
+            and all(len(store) == angles for store in of_angles)
+            and len(self.joint_pressures) == pressures
+            and len(self.admissible_angles) == sum(regime != 'slack' for regime in answered)
+        )
+
     def connect_to_services(self, program: Program) -> None:
         """Wait until the estimator's services are there; it may be in any state."""
 
