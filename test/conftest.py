@@ -42,7 +42,8 @@ def ros_domain():
 @pytest.fixture
 def listener():
     """A node that keeps what the estimator publishes."""
-    from ros_programs import Listener, spinning
+    from listener import Listener
+    from ros_programs import spinning
 
     with spinning(Listener) as node:
         yield node
@@ -51,8 +52,9 @@ def listener():
 @pytest.fixture(scope='module')
 def shared_listener():
     """A listener and, in a domain that is theirs, an estimator with its defaults."""
+    from listener import Listener
     from ros_domain import free_domain, in_domain
-    from ros_programs import Listener, spinning
+    from ros_programs import spinning
 
     with free_domain() as domain, ExitStack() as stack:
         # Only they: what a test starts beside them starts in the domain of the run.

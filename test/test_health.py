@@ -5,10 +5,11 @@ import time
 
 from designs import PRELIMINARY
 from diagnostic_msgs.msg import DiagnosticStatus
+from listener import Listener
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
-from ros_programs import Listener, Program, spinning, wait_for
+from ros_programs import Program, spinning, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray
 

@@ -7,8 +7,9 @@ import sys
 import pytest
 from builtin_interfaces.msg import Time
 from designs import PRELIMINARY
+from listener import Listener
 from rcl_interfaces.msg import ParameterType, ParameterValue
-from ros_programs import Listener, Program, spinning, wait_for
+from ros_programs import Program, spinning, wait_for
 from rosgraph_msgs.msg import Clock
 from test_health import values
 
