@@ -68,16 +68,11 @@ def shared_listener():
 def running(shared_listener):
     """A listener whose estimator runs already; what a test sets is set back."""
     from designs import PRELIMINARY
-    from rcl_interfaces.msg import ParameterType, ParameterValue
     from ros_programs import wait_for
 
     yield shared_listener
-    values = {f'design__{name}': value for name, value in asdict(PRELIMINARY).items()}
-    parameters = {
-        name: ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
-        for name, value in (*values.items(), ('tension_stddev', 0.01))
-    }
-    result = shared_listener.set_estimator_parameters(**parameters)
+    design = {f'design__{name}': value for name, value in asdict(PRELIMINARY).items()}
+    result = shared_listener.set_estimator_parameters(**design, tension_stddev=0.01)
     assert result.successful, result.reason
     wait_for('the rest of the answers', shared_listener.has_all)
     shared_listener.forget()

@@ -7,7 +7,6 @@ from contextlib import contextmanager
 import pytest
 from diagnostic_msgs.msg import DiagnosticStatus
 from listener import Listener
-from rcl_interfaces.msg import ParameterType, ParameterValue
 from ros_programs import EXECUTOR, Program, spinning, wait_for
 
 from tendon_statics import Regime
@@ -226,9 +225,6 @@ def test_of_two_drivers_at_once_no_pair_is_mixed_and_both_are_noticed(
 
 
 def test_a_bad_parameter_in_the_middle_of_a_stream_changes_nothing(observer, recording):
-    def of(value: float) -> ParameterValue:
-        return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
-
     with (
         estimator_of(observer, recording) as program,
         driver(recording, 'rate:=250.0') as made,
@@ -236,7 +232,7 @@ def test_a_bad_parameter_in_the_middle_of_a_stream_changes_nothing(observer, rec
         wait_for('the stream', lambda: len(observer.estimates) > 50)
         for refused in range(20):
             result = observer.set_estimator_parameters(
-                design__max_bend_angle=of(0.1), design__mass=of(-1.0 - refused)
+                design__max_bend_angle=0.1, design__mass=-1.0 - refused
             )
             assert not result.successful
             assert 'design.mass' in result.reason

@@ -6,7 +6,6 @@ import time
 from designs import PRELIMINARY
 from diagnostic_msgs.msg import DiagnosticStatus
 from listener import Listener
-from rcl_interfaces.msg import ParameterType, ParameterValue
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from ros_programs import Program, spinning, wait_for
@@ -148,8 +147,7 @@ def test_a_quiet_start_a_stream_and_its_end(listener):
 def test_a_changed_timeout_counts_from_then(listener):
     with listener.estimator('-p', 'input_timeout:=60.0'):
         listener.answer(*SLIPPING)
-        value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=0.2)
-        assert listener.set_estimator_parameters(input_timeout=value).successful
+        assert listener.set_estimator_parameters(input_timeout=0.2).successful
         wait_for('that it is stale', lambda: listener.stale_regimes)
 
 

@@ -7,7 +7,6 @@ import threading
 import pytest
 from designs import PRELIMINARY
 from diagnostic_msgs.msg import DiagnosticStatus
-from rcl_interfaces.msg import ParameterType, ParameterValue
 from ros_programs import wait_for
 
 HELD, SLIPPING, STOP = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0)
@@ -19,10 +18,6 @@ WAYS = {
     'finalized': ('shutdown',),
 }
 """State → the transitions that lead there."""
-
-
-def double(value: float) -> ParameterValue:
-    return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
 
 
 def everything(listener) -> list:
@@ -110,10 +105,10 @@ def test_a_bad_design_keeps_it_from_configuring_until_it_is_mended(listener):
         assert listener.estimator_state() == 'unconfigured'
         reason = 'Not configured: design.mass is -1.0, allowed is 0 to 100 kg'
         assert reason in program.output()
-        assert listener.set_estimator_parameters(design__mass=double(0.02)).successful
+        assert listener.set_estimator_parameters(design__mass=0.02).successful
         assert listener.change_state('configure')
         # From now on a change is checked as a whole.
-        refused = listener.set_estimator_parameters(design__contact_end_angle=double(0.5))
+        refused = listener.set_estimator_parameters(design__contact_end_angle=0.5)
         assert 'the end must exceed the start' in refused.reason
         assert listener.change_state('activate')
         listener.connect(program)
@@ -123,12 +118,10 @@ def test_a_bad_design_keeps_it_from_configuring_until_it_is_mended(listener):
 def test_unconfigured_parameters_may_be_set_one_by_one(listener):
     with listener.estimator(*NOT_STARTED, greet=False) as program:
         listener.connect_to_services(program)
-        assert listener.set_estimator_parameters(
-            design__contact_start_angle=double(1.6)
-        ).successful
+        assert listener.set_estimator_parameters(design__contact_start_angle=1.6).successful
         assert not listener.change_state('configure')
         assert 'the end must exceed the start' in program.output()
-        assert listener.set_estimator_parameters(design__contact_end_angle=double(2.0)).successful
+        assert listener.set_estimator_parameters(design__contact_end_angle=2.0).successful
         assert listener.change_state('configure')
 
 
@@ -139,9 +132,9 @@ def test_parameters_can_be_set_in_every_state(state, listener):
         listener.connect_to_services(program)
         for transition in WAYS[state]:
             assert listener.change_state(transition)
-        assert listener.set_estimator_parameters(design__mass=double(0.02)).successful
+        assert listener.set_estimator_parameters(design__mass=0.02).successful
         assert listener.estimator_parameter('design.mass') == 0.02
-        deleted = listener.set_estimator_parameters(design__mass=ParameterValue())
+        deleted = listener.set_estimator_parameters(design__mass=None)
         assert not deleted.successful
         assert 'design.mass cannot be deleted' in deleted.reason
         assert listener.estimator_state() == state

@@ -13,10 +13,10 @@ from estimator_client import ARRAY, EstimatorClient
 from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState, GetState
-from rcl_interfaces.msg import Parameter, ParameterValue, SetParametersResult
+from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParametersAtomically
 from rclpy.context import Context
-from rclpy.parameter import parameter_value_to_python
+from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.qos import QoSProfile
 from ros_programs import Program, wait_for
 from sensor_msgs.msg import JointState
@@ -193,10 +193,11 @@ class Listener(EstimatorClient):
         """Call ``~/solve_latest``."""
         return self.call('solve_latest', Trigger.Request())
 
-    def set_estimator_parameters(self, **values: ParameterValue) -> SetParametersResult:
-        """Set parameters of the estimator in one step; ``__`` stands for a dot."""
+    def set_estimator_parameters(self, **values: float | str | None) -> SetParametersResult:
+        """Set parameters of the estimator in one step; ``__`` stands for a dot, None deletes."""
         parameters = [
-            Parameter(name=name.replace('__', '.'), value=value) for name, value in values.items()
+            Parameter(name.replace('__', '.'), value=value).to_parameter_msg()
+            for name, value in values.items()
         ]
         request = SetParametersAtomically.Request(parameters=parameters)
         return self.call('set_parameters_atomically', request).result
