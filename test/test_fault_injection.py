@@ -256,7 +256,8 @@ def test_stamps_that_go_backwards_are_dropped_and_the_good_ones_kept():
         good = [Time(sec=base + second) for second in range(100)]
         for stamp in good:
             listener.publish(1.0, 3.0, stamp=stamp)
-            listener.publish(1.0, 2.9, stamp=Time(sec=base - stamp.sec % 50))
+            # Before the first of them in any case; the same stamp again is another fault.
+            listener.publish(1.0, 2.9, stamp=Time(sec=base - 1 - stamp.sec % 50))
         wait_for('the good ones', lambda: len(listener.estimates) == 100)
         assert [estimate.header.stamp for estimate in listener.estimates] == good
         assert set(listener.regimes) == {'driven_to_stop'}
