@@ -97,6 +97,21 @@ def test_a_manifest_that_cannot_be_read_is_damage(split, content):
     assert damage.startswith('metadata.yaml: ')
 
 
+def test_a_manifest_without_files_loses_none(split):
+    write_manifest(split, [], 0)
+    recording = load_recording(split)
+    assert recording.tension_s.tolist() == list(range(96))
+    assert 'metadata.yaml lists no files' in recording.damage_summary
+
+
+def test_if_all_files_of_a_manifest_are_missing_it_is_said_how_to_read_others(split):
+    write_manifest(split, ['other_0.mcap', 'other_1.mcap'], 96)
+    with pytest.raises(
+        RecordingError, match=r'other_0\.mcap is missing.*run_0\..*the file itself'
+    ):
+        load_recording(split)
+
+
 def test_a_manifest_leads_to_no_file_outside_of_its_folder(tmp_path):
     outside = write_bag(tmp_path / 'outside', tensions(0, 3))
     inside = write_bag(tmp_path / 'bag', tensions(10, 3)).parent
