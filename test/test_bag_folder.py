@@ -106,9 +106,7 @@ def test_a_manifest_without_files_loses_none(split):
 
 def test_if_all_files_of_a_manifest_are_missing_it_is_said_how_to_read_others(split):
     write_manifest(split, ['other_0.mcap', 'other_1.mcap'], 96)
-    with pytest.raises(
-        RecordingError, match=r'other_0\.mcap is missing.*run_0\..*the file itself'
-    ):
+    with pytest.raises(RecordingError, match=r'other_0\.mcap is missing.* run_0\.'):
         load_recording(split)
 
 
@@ -153,12 +151,12 @@ def test_compressed_files_are_read_in_a_folder_and_by_themselves(tmp_path, plugi
 
 @pytest.mark.parametrize('ending', COMPRESSORS)
 def test_of_a_compressed_file_that_was_cut_the_beginning_is_read(tmp_path, ending):
-    file = write_bag(tmp_path / 'bag', tensions(0, 60_000))
+    file = write_bag(tmp_path / 'bag', tensions(0, 15_000))
     content = COMPRESSORS[ending](file.read_bytes())
     packed = tmp_path / f'run.mcap{ending}'
     packed.write_bytes(content[: int(0.8 * len(content))])
     recording = load_recording(packed)
-    assert 1000 < len(recording) < 60_000
+    assert 500 < len(recording) < 15_000
     assert recording.tension_s.tolist() == list(range(len(recording)))
     assert 'truncated' in recording.damage_summary
     packed.write_bytes(b'no such')
