@@ -19,9 +19,12 @@ if TYPE_CHECKING:
     from .physics import Calibration, EquilibriumBatch, calibrate, solve_batch
     from .recordings.motion import mark_motion
     from .recordings.reading.load import load_recording
+    from .recordings.reading.table_options import TableOptions
+    from .recordings.reading.topics import BagTopics
     from .recordings.recording import Recording
 
 __all__ = [
+    'BagTopics',
     'Calibration',
     'CalibrationError',
     'DesignError',
@@ -31,6 +34,7 @@ __all__ = [
     'Recording',
     'RecordingError',
     'Regime',
+    'TableOptions',
     'TensionError',
     'calibrate',
     'default_design_path',
@@ -50,6 +54,14 @@ def __getattr__(name: str) -> Any:
         from .recordings.reading.load import load_recording
 
         return load_recording
+    if name == 'BagTopics':
+        from .recordings.reading.topics import BagTopics
+
+        return BagTopics
+    if name == 'TableOptions':
+        from .recordings.reading.table_options import TableOptions
+
+        return TableOptions
     if name == 'mark_motion':
         from .recordings.motion import mark_motion
 
