@@ -9,13 +9,19 @@ from pathlib import Path
 from ..files.output_file import OutputError
 from ..files.unit_file import Unit
 from ..files.unit_parameters import ESTIMATIONS
-from ..physics import JointDesign
+from ..physics import UPRIGHT, JointDesign, Load
 from ..recordings.progress import Progress
 from ..recordings.recording import Recording
 from ..recordings.replay.bag_output import write_bag
 from ..recordings.replay.estimates import Replay, replay
 from ..recordings.replay.table_output import write_table
-from .options import add_design_option, add_tension_stddev_option, tension_stddev_from
+from .options import (
+    add_design_option,
+    add_load_options,
+    add_tension_stddev_option,
+    load_from,
+    tension_stddev_from,
+)
 from .progress import with_progress
 from .recording_options import add_recording_options, report_damage, unit_and_recording
 from .replay_text import replay_facts
@@ -27,6 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_recording_options(parser)
     add_design_option(parser)
     add_estimation_options(parser)
+    add_load_options(parser)
     add_tension_stddev_option(parser, default=None)
     parser.add_argument(
         '--output',
@@ -73,7 +80,7 @@ def run(options: argparse.Namespace) -> int:
             f'{options.output}: it is the recording itself, or lies in it, which must stay as it '
             'is; name another file'
         )
-    replayed = replay_from(options, unit, unit.design, recording)
+    replayed = replay_from(options, unit, unit.design, recording, load_from(options))
     if write is not None:
         write(options.output, replayed, with_progress)
     print(fact_lines(replay_facts(replayed, unit.design)))
@@ -81,13 +88,18 @@ def run(options: argparse.Namespace) -> int:
 
 
 def replay_from(
-    options: argparse.Namespace, unit: Unit, design: JointDesign, recording: Recording
+    options: argparse.Namespace,
+    unit: Unit,
+    design: JointDesign,
+    recording: Recording,
+    load: Load = UPRIGHT,
 ) -> Replay:
     """Replay a recording as the options and the unit's file ask for, with a design of it."""
     return replay(
         design,
         recording,
         options.estimation or unit.get('estimation') or ESTIMATIONS[0],
+        load=load,
         initial_bend_angle=initial_bend_angle_from(options, unit),
         tension_stddev=tension_stddev_from(options, unit),
         progress=with_progress,

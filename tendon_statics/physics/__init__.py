@@ -16,6 +16,7 @@ from .errors import (
     CalibrationError,
     DesignError,
     LoadError,
+    TendonStaticsError,
     TensionError,
     UnreachableError,
 )
@@ -52,6 +53,7 @@ __all__ = [
     'LoadError',
     'Regime',
     'StickSlipTracker',
+    'TendonStaticsError',
     'TensionError',
     'TensionGradient',
     'Tensions',

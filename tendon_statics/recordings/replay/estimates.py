@@ -9,7 +9,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics import Equilibrium, JointDesign, StickSlipTracker, TensionError
+from ...physics import (
+    UPRIGHT,
+    Equilibrium,
+    JointDesign,
+    Load,
+    StickSlipTracker,
+    TensionError,
+)
 from ...physics.admissible import check_bend_angle
 from ...physics.batch import solve_batch
 from ...physics.tensions import MAX_TENSION
@@ -33,6 +40,8 @@ class Replay(NamedTuple):
     """What the model says of each sample; arrays of shape ``(n,)``, NaN where not determined."""
 
     recording: Recording
+    load: Load
+    """What acts beside the cables, all the time"""
     estimation: str
     regime: NDArray[np.str_]
     bend_angle: Floats
@@ -90,6 +99,7 @@ def replay(
     recording: Recording,
     estimation: str = 'equilibrium',
     *,
+    load: Load = UPRIGHT,
     initial_bend_angle: float = 0.0,
     tension_stddev: float = 0.01,
     progress: Progress = unseen,
@@ -101,6 +111,8 @@ def replay(
     estimation : str
         ``equilibrium``: each sample by itself, as `solve` does; ``tracking``: with the memory of a
         `StickSlipTracker`.
+    load : Load
+        What acts beside the cables, all the time.
     initial_bend_angle : float
         Where a tracked unit is at first, in rad.
     tension_stddev : float
@@ -114,11 +126,11 @@ def replay(
         If the initial angle is not a number or lies beyond the stop.
     RecordingError
         If a unit is to be tracked through a recording in which time goes back.
-    ValueError
+    TensionError
         If the deviation is not finite and above 0.
     """
     if not 0.0 < tension_stddev < math.inf:
-        raise ValueError(
+        raise TensionError(
             f'tension_stddev is {tension_stddev!r} N, allowed is a finite number above 0'
         )
     check_bend_angle(design, initial_bend_angle)
@@ -127,11 +139,11 @@ def replay(
     recording = usable(dataclasses.replace(recording, faults=faults))
     starts = progress(range(0, len(recording), CHUNK), 'solving')
     if estimation == 'equilibrium':
-        parts = [_solved(design, recording, start, tension_stddev) for start in starts]
+        parts = [_solved(design, recording, load, start, tension_stddev) for start in starts]
     else:
         recording.in_order()
         tracker = StickSlipTracker(design, initial_bend_angle)
-        parts = [_tracked(tracker, recording, start, tension_stddev) for start in starts]
+        parts = [_tracked(tracker, recording, load, start, tension_stddev) for start in starts]
     regime, numbers, assured = zip(*parts, strict=True)
     angle, angle_stddev, pressure, pressure_stddev, margin = np.concatenate(numbers, axis=1)
     regimes = np.concatenate(regime)
@@ -141,6 +153,7 @@ def replay(
     ]
     return Replay(
         given,
+        load,
         estimation,
         regimes,
         angle,
@@ -167,24 +180,29 @@ _Part = tuple[NDArray[np.str_], Floats, NDArray[np.bool_]]
 """Regimes, the five numbers of each sample in rows, and whether the angle is assured"""
 
 
-def _solved(design: JointDesign, recording: Recording, start: int, tension_stddev: float) -> _Part:
+def _solved(
+    design: JointDesign, recording: Recording, load: Load, start: int, tension_stddev: float
+) -> _Part:
     part = slice(start, start + CHUNK)
-    answers = solve_batch(design, recording.tension_l[part], recording.tension_s[part])
-    side = np.where(answers.bend_angle < 0.0, -1.0, 1.0)
+    answers = solve_batch(design, recording.tension_l[part], recording.tension_s[part], load)
     numbers = np.stack(
         [
             answers.bend_angle,
             answers.bend_angle_stddev(tension_stddev),
             answers.pressure,
             answers.pressure_stddev(tension_stddev),
-            side * (1.0 + answers.residual / answers.normal_force),
+            answers.slip_margin,
         ]
     )
-    return answers.regime_names, numbers, np.full(len(side), True)
+    return answers.regime_names, numbers, np.full(answers.regime.shape, True)
 
 
 def _tracked(
-    tracker: StickSlipTracker, recording: Recording, start: int, tension_stddev: float
+    tracker: StickSlipTracker,
+    recording: Recording,
+    load: Load,
+    start: int,
+    tension_stddev: float,
 ) -> _Part:
     regimes, rows, assured = [], [], []
     part = slice(start, start + CHUNK)
@@ -192,7 +210,7 @@ def _tracked(
         recording.tension_l[part].tolist(), recording.tension_s[part].tolist(), strict=True
     ):
         try:
-            state = tracker.update(*tensions)
+            state = tracker.update(*tensions, load)
         except TensionError:
             regimes.append(INVALID)
             rows.append((math.nan,) * 5)
