@@ -9,20 +9,20 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .array_roots import Floats
-from .calibration_result import CONFIDENCE, Calibration, FittedParameter, ResidualStatistics
-from .calibration_samples import Samples, SortedSamples, as_floats
-from .calibration_warnings import calibration_warnings
-from .design import DesignParameter, JointDesign, design_parameters
-from .errors import CalibrationError, DesignError
-from .identification import (
+from ..array_roots import Floats
+from .result import CONFIDENCE, Calibration, FittedParameter, ResidualStatistics
+from .samples import Samples, SortedSamples, as_floats
+from .fit_warnings import calibration_warnings
+from ..design import DesignParameter, JointDesign, design_parameters
+from ..errors import CalibrationError, DesignError
+from .identifiability import (
     LOSS_SCALE,
     Identification,
     identify,
     scatter_scale,
     scatter_significance,
 )
-from .slip_boundary import BoundaryDistance, Noise
+from .boundary_distance import BoundaryDistance, Noise
 
 DEFAULT_FIT = ('mass', 'cable_offset', 'friction_coefficient')
 
@@ -61,12 +61,12 @@ def calibrate(
     it is two. A hold, that is held samples at one angle, is an inequality: it counts only as far
     as it lies beyond the boundary by more than noise explains. Every distance is in units of its
     own noise, with that of tensions, angle and pressure taken to first order (see
-    `slip_boundary`), and enters by a soft L1 loss, so that outliers do not rule the fit. Values
+    `boundary_distance`), and enters by a soft L1 loss, so that outliers do not rule the fit. Values
     stay within the ranges of `design_parameters`.
 
     Standard errors come from the slipping samples alone, for the stated noise, or, where the
     distances scatter more than that, for the noise that they tell themselves (see
-    `identification`).
+    `identifiability`).
 
     Parameters
     ----------

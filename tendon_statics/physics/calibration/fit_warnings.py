@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .array_roots import Floats
-from .calibration_result import FittedParameter, ResidualStatistics
-from .design import DesignParameter
-from .identification import Identification
+from ..array_roots import Floats
+from .result import FittedParameter, ResidualStatistics
+from ..design import DesignParameter
+from .identifiability import Identification
 
 STRONG_CORRELATION = 0.99
 NEGLIGIBLE_DISTANCE = 0.01

@@ -19,11 +19,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .array_roots import Floats
-from .design import JointDesign
-from .gradients import ByCable, normal_by_tensions, slip_by_tensions
-from .load import UPRIGHT, Load
-from .slip import Slip
+from ..array_roots import Floats
+from ..design import JointDesign
+from ..gradients import ByCable, normal_by_tensions, slip_by_tensions
+from ..load import UPRIGHT, Load
+from ..slip import Slip
 
 
 class Noise(NamedTuple):

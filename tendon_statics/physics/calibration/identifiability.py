@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .array_roots import Floats
+from ..array_roots import Floats
 
 LOSS_SCALE = 1.5
 """c in standard deviations of the noise"""

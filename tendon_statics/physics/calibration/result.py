@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .design import JointDesign
-from .slip_boundary import BoundaryDistance, Noise
+from ..design import JointDesign
+from .boundary_distance import BoundaryDistance, Noise
 
 SLIPPING, HELD = 'slipping', 'held'
 """Values of a sample's state"""

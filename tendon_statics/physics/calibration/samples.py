@@ -9,12 +9,12 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .array_roots import Floats
-from .calibration_result import HELD, SLIPPING
-from .design import JointDesign
-from .errors import CalibrationError
-from .slip_boundary import BoundaryDistance, Noise, boundary_distance
-from .tensions import MAX_TENSION
+from ..array_roots import Floats
+from .result import HELD, SLIPPING
+from ..design import JointDesign
+from ..errors import CalibrationError
+from .boundary_distance import BoundaryDistance, Noise, boundary_distance
+from ..tensions import MAX_TENSION
 
 AT_STOP = 3.0
 """Standard deviations of the angle within which a unit at rest is taken to be at its stop"""
