@@ -359,7 +359,7 @@ def test_a_start_whose_weight_is_just_below_a_sample_is_no_obstacle():
 
 
 def test_a_search_that_does_not_end_is_said(monkeypatch):
-    monkeypatch.setattr('tendon_statics.physics.calibration.fit.MOST_DESIGNS', 2)
+    monkeypatch.setattr('tendon_statics.physics.calibration.problem.MOST_DESIGNS', 2)
     samples = measured(slipping_samples(20, np.random.default_rng(16)), np.random.default_rng(16))
     with pytest.raises(CalibrationError, match='has not ended after 2 designs'):
         calibrate(PRELIMINARY, recording(samples))
