@@ -24,7 +24,7 @@ setup(
         'calibration': ['scipy>=1.11.4'],
         'recordings': [
             'lz4>=4',
-            'mcap>=1.1',
+            'mcap>=1.2.1',
             'pyarrow>=15',
             'rosbags>=0.10.8',
             'tqdm>=4.64',

@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from thoroughness import examples
 
-from tendon_statics import JointDesign, Regime, TensionError, solve, solve_batch
+from tendon_statics import JointDesign, Load, Regime, TensionError, solve, solve_batch
 from tendon_statics.physics import batch as batch_module
 from tendon_statics.physics.batch import INVALID, REGIME_CODES
 from tendon_statics.physics.tensions import MAX_TENSION
@@ -260,6 +260,22 @@ def test_any_array_like_will_do(tension_l, tension_s, shape):
     assert answers.regime.shape == answers.pressure.shape == shape
     assert answers.pressure_gradient.tension_s.shape == shape
     assert_is_a_loop_of_solve(PRELIMINARY, tension_l, tension_s)
+
+
+def test_loads_in_an_array_are_those_of_a_loop_of_solve():
+    draw = random.Random(31)
+    design = replace(PRELIMINARY, contact_law='elastic_seat')
+    loads = [
+        Load.tilted(draw.uniform(-3.0, 3.0), (draw.gauss(0.0, 0.1), draw.gauss(0.0, 0.1)), 0.03)
+        for _ in range(60)
+    ]
+    pairs = np.array([(draw.uniform(0.3, 3.0), draw.uniform(0.3, 3.0)) for _ in loads])
+    answers = solve_batch(design, *pairs.T, loads)
+    for index, load in enumerate(loads):
+        alone = solve(design, *pairs[index].tolist(), load)
+        assert answers.regime_names[index] == alone.regime.value
+        if alone.bend_angle is not None:
+            assert answers.bend_angle[index] == pytest.approx(alone.bend_angle, abs=1e-9)
 
 
 def test_the_inputs_are_left_alone():

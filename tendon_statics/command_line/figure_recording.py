@@ -10,7 +10,7 @@ import numpy as np
 from ..physics import JointDesign, Regime
 from ..recordings.replay.estimates import INVALID, Replay
 from .figures import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION
-from .options import add_design_option, add_load_options, add_tension_stddev_option, load_from
+from .options import add_design_option, add_load_options, add_tension_stddev_option
 from .recording_options import (
     add_recording_options,
     report_damage,
@@ -51,7 +51,7 @@ def draw(drawing: Figure, options: argparse.Namespace) -> int:
     """Read, replay and draw; return the exit code."""
     unit, recording = unit_and_recording(options)
     design = unit.design
-    replayed = replay_from(options, unit, design, recording, load_from(options))
+    replayed = replay_from(options, unit, design, recording)
     draw_replay(drawing, design, replayed)
     report_notes(unit, recording)
     return report_damage(recording)

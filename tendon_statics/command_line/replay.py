@@ -9,7 +9,7 @@ from pathlib import Path
 from ..files.output_file import OutputError
 from ..files.unit_file import Unit
 from ..files.unit_parameters import ESTIMATIONS
-from ..physics import UPRIGHT, JointDesign, Load
+from ..physics import JointDesign
 from ..recordings.progress import Progress
 from ..recordings.recording import Recording
 from ..recordings.replay.bag_output import write_bag
@@ -19,11 +19,15 @@ from .options import (
     add_design_option,
     add_load_options,
     add_tension_stddev_option,
-    load_from,
     tension_stddev_from,
 )
 from .progress import with_progress
-from .recording_options import add_recording_options, report_damage, unit_and_recording
+from .recording_options import (
+    add_recording_options,
+    recorded_load,
+    report_damage,
+    unit_and_recording,
+)
 from .replay_text import replay_facts
 from .tables import fact_lines
 
@@ -80,7 +84,7 @@ def run(options: argparse.Namespace) -> int:
             f'{options.output}: it is the recording itself, or lies in it, which must stay as it '
             'is; name another file'
         )
-    replayed = replay_from(options, unit, unit.design, recording, load_from(options))
+    replayed = replay_from(options, unit, unit.design, recording)
     if write is not None:
         write(options.output, replayed, with_progress)
     print(fact_lines(replay_facts(replayed, unit.design)))
@@ -92,14 +96,13 @@ def replay_from(
     unit: Unit,
     design: JointDesign,
     recording: Recording,
-    load: Load = UPRIGHT,
 ) -> Replay:
     """Replay a recording as the options and the unit's file ask for, with a design of it."""
     return replay(
         design,
         recording,
         options.estimation or unit.get('estimation') or ESTIMATIONS[0],
-        load=load,
+        load=recorded_load(options, unit, recording),
         initial_bend_angle=initial_bend_angle_from(options, unit),
         tension_stddev=tension_stddev_from(options, unit),
         progress=with_progress,

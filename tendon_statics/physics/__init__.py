@@ -31,8 +31,7 @@ from .tracker import StickSlipTracker
 
 if TYPE_CHECKING:
     from .batch import EquilibriumBatch, solve_batch
-    from .calibration import calibrate
-    from .calibration_result import Calibration
+    from .calibration import Calibration, calibrate
 
 __all__ = [
     'CONTACT_LAWS',
@@ -77,12 +76,8 @@ def __getattr__(name: str) -> Any:
         from . import batch
 
         return getattr(batch, name)
-    if name == 'calibrate':
-        from .calibration import calibrate
+    if name in ('Calibration', 'calibrate'):
+        from . import calibration
 
-        return calibrate
-    if name == 'Calibration':
-        from .calibration_result import Calibration
-
-        return Calibration
+        return getattr(calibration, name)
     raise AttributeError(f'module {__name__!r} has no attribute {name!r}')

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 from typing import NamedTuple
 
@@ -24,7 +25,7 @@ from ...tensions.cable_scale import CableScale, scaled_arrays
 from ...tensions.reason import Reason
 from ..progress import Progress, unseen
 from ..reading.columns import READINGS
-from ..recording import Floats, Recording
+from ..recording import OF_LOAD, Floats, Recording
 from ..scaling import usable, worse_reasons
 
 CHUNK = 20_000
@@ -41,7 +42,7 @@ class Replay(NamedTuple):
 
     recording: Recording
     load: Load
-    """What acts beside the cables, all the time"""
+    """What of that which acts beside the cables was not recorded"""
     estimation: str
     regime: NDArray[np.str_]
     bend_angle: Floats
@@ -78,6 +79,7 @@ class Replay(NamedTuple):
                 *zip(READINGS, recorded.readings or (None, None), strict=True),
                 ('bend_angle', recorded.bend_angle),
                 ('pressure', recorded.pressure),
+                *((name, getattr(recorded, name)) for name in OF_LOAD),
                 ('state', None if recorded.state is None else np.array(recorded.state)),
             )
             if values is not None
@@ -112,7 +114,7 @@ def replay(
         ``equilibrium``: each sample by itself, as `solve` does; ``tracking``: with the memory of a
         `StickSlipTracker`.
     load : Load
-        What acts beside the cables, all the time.
+        What acts beside the cables; what was recorded of it comes first.
     initial_bend_angle : float
         Where a tracked unit is at first, in rad.
     tension_stddev : float
@@ -126,24 +128,25 @@ def replay(
         If the initial angle is not a number or lies beyond the stop.
     RecordingError
         If a unit is to be tracked through a recording in which time goes back.
-    TensionError
+    ValueError
         If the deviation is not finite and above 0.
     """
     if not 0.0 < tension_stddev < math.inf:
-        raise TensionError(
+        raise ValueError(
             f'tension_stddev is {tension_stddev!r} N, allowed is a finite number above 0'
         )
     check_bend_angle(design, initial_bend_angle)
     faults = _faults(recording)
     given = recording
     recording = usable(dataclasses.replace(recording, faults=faults))
+    loads = recording.loads(load)
     starts = progress(range(0, len(recording), CHUNK), 'solving')
     if estimation == 'equilibrium':
-        parts = [_solved(design, recording, load, start, tension_stddev) for start in starts]
+        parts = [_solved(design, recording, loads, start, tension_stddev) for start in starts]
     else:
         recording.in_order()
         tracker = StickSlipTracker(design, initial_bend_angle)
-        parts = [_tracked(tracker, recording, load, start, tension_stddev) for start in starts]
+        parts = [_tracked(tracker, recording, loads, start, tension_stddev) for start in starts]
     regime, numbers, assured = zip(*parts, strict=True)
     angle, angle_stddev, pressure, pressure_stddev, margin = np.concatenate(numbers, axis=1)
     regimes = np.concatenate(regime)
@@ -181,10 +184,15 @@ _Part = tuple[NDArray[np.str_], Floats, NDArray[np.bool_]]
 
 
 def _solved(
-    design: JointDesign, recording: Recording, load: Load, start: int, tension_stddev: float
+    design: JointDesign,
+    recording: Recording,
+    loads: Load | list[Load],
+    start: int,
+    tension_stddev: float,
 ) -> _Part:
     part = slice(start, start + CHUNK)
-    answers = solve_batch(design, recording.tension_l[part], recording.tension_s[part], load)
+    of_part = loads if isinstance(loads, Load) else loads[part]
+    answers = solve_batch(design, recording.tension_l[part], recording.tension_s[part], of_part)
     numbers = np.stack(
         [
             answers.bend_angle,
@@ -200,15 +208,17 @@ def _solved(
 def _tracked(
     tracker: StickSlipTracker,
     recording: Recording,
-    load: Load,
+    loads: Load | list[Load],
     start: int,
     tension_stddev: float,
 ) -> _Part:
     regimes, rows, assured = [], [], []
     part = slice(start, start + CHUNK)
-    for tensions in zip(
+    pairs = zip(
         recording.tension_l[part].tolist(), recording.tension_s[part].tolist(), strict=True
-    ):
+    )
+    of_part = itertools.repeat(loads) if isinstance(loads, Load) else loads[part]
+    for tensions, load in zip(pairs, of_part, strict=False):
         try:
             state = tracker.update(*tensions, load)
         except TensionError:
