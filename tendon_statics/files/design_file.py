@@ -70,7 +70,7 @@ def save_design(
     OutputError
         If the file cannot be written; what was there then stays.
     """
-    import json  # Here, for who only solves should not wait for it.
+    import json  # Imported here: whoever only solves should not wait for it.
 
     lines = [f'# {line}'.rstrip() for line in comment.splitlines()]
     lines += ['/**:', '  ros__parameters:']

@@ -8,11 +8,11 @@ from ..physics import JointDesign
 from .recording import Recording
 
 BEYOND = 0.2
-"""Share of angles beyond the stop from which on the unit of them is doubted: a unit rests against
-its stop, but for noise, and does not go past it"""
+"""Share of angles beyond the stop above which their unit is doubted: a unit rests against its stop
+and does not pass it, but for noise"""
 
 SLACK_OF_STOP = 0.05
-"""Share of the stop by which noise and a rough drawing may let an angle be beyond it"""
+"""Share of the stop by which noise or a rough drawing may put an angle beyond it"""
 
 MANY_WEIGHTS = 300.0
 """Times the unit's weight that a cable of such a unit pulls at most, in the median"""

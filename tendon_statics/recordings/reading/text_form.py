@@ -15,7 +15,7 @@ from .text_lines import Line, TextForm, separator_name, split
 from .units import UNITS, split_title
 
 COMMENTS = ('#', '%')
-"""What a line begins with that is left alone, unless it has the titles"""
+"""How a line begins that is ignored, unless it has the titles"""
 
 LOOKED_AT = 100
 """Rows that tell how numbers are written"""
