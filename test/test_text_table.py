@@ -132,6 +132,12 @@ def test_what_programs_write_for_no_number_is_none(file, word):
     assert math.isnan(recording.tension_s[1])
 
 
+def test_a_long_rest_of_whole_numbers_does_not_hide_how_decimals_are_written(file):
+    rest = '0;0;0\n' * 500
+    recording = load_recording(file(f'time;tension_l;tension_s\n{rest}0,5;1,0;1,5\n')).whole()
+    assert recording.tensions()[-1] == (1.0, 1.5)
+
+
 def test_commas_between_columns_and_in_numbers_are_not_guessed_at(file):
     with pytest.raises(RecordingError, match='commas separate both'):
         load_recording(file('tension_l,tension_s\n1,0,1,5\n1,0,1,6\n'))
