@@ -64,9 +64,9 @@ def _of_tensions(recording: Recording, design: JointDesign) -> str:
     if middle > MANY_WEIGHTS * design.weight:
         return (
             f'the tensions, {middle:.4g} N in the middle, are {middle / design.weight:.3g} times '
-            f'the weight of the unit: if they are mN or gf, say so, tension_l [mN] or '
-            f'--units tension=mN; if they are the counts of an amplifier, the design file has to have '
-            'cable_l.gain and cable_s.gain'
+            'the weight of the unit: if they are mN or gf, say so, tension_l [mN] or '
+            '--units tension=mN; if they are the counts of an amplifier, the design file has to '
+            'have cable_l.gain and cable_s.gain'
         )
     total = recording.tension_l + recording.tension_s
     total = total[np.isfinite(total) & (total > 0.0)]
