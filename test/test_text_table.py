@@ -44,6 +44,7 @@ LABVIEW = (
         ('sep=;\ntime;tension_l;tension_s\n0;1;1.5\n1;1;1.6\n', ('separated by semicolon',)),
         ('time;tension_l;tension_s\n0;1;1.5;\n1;1;1.6;\n', ('separated by semicolon',)),
         ('time|tension_l|tension_s\n0|1|1.5\n1|1|1.6\n', ('separated by bar',)),
+        ('time | tension_l | tension_s\n0 | 1 | 1.5\n1 | 1 | 1.6\n', ('separated by bar',)),
         ('time tension_l  tension_s\n0 1 1.5\n1   1 1.6\n', ('separated by space',)),
         ('time,tension_l,tension_s\n"0,0","1,0","1,5"\n"1,0",1,"1,6"\n', ('with a comma',)),
         ('% a run\n# of MATLAB\ntime,tension_l,tension_s\n0,1,1.5\n% pause\n1,1,1.6\n', ()),
