@@ -36,6 +36,7 @@ FIGURES = {
     'docs/map.svg': 'plot map --tension-l-range 0.8 1.2 --tension-s-range 1.6 2.4',
     'docs/recording.svg': f'plot recording {SESSION}',
     'docs/residual.svg': 'plot residual',
+    'docs/tilted.svg': 'plot unit --base-tilt-deg 10',
     'docs/unit.svg': 'plot unit',
 }
 

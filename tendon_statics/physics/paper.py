@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from enum import Enum
 
 from .design import JointDesign
 from .forces import contact_coefficients
+from .load import UPRIGHT
 from .solver import solve
 from .state import Regime
+from .tensions import Tensions, taut_slip
 
 TENSION_L, TENSION_S = 1.0, 2.0
 """Published input, N"""
@@ -133,17 +135,47 @@ def equilibrium_band(design: JointDesign) -> tuple[float, float]:
     For a design with a root in the published case.
     """
 
-    def last(regime: Regime, low: float, high: float) -> float:
-        """Largest tension with the regime, which `low` has and `high` has not."""
-        while high - low > 1e-9:
-            middle = 0.5 * (low + high)
-            if solve(design, TENSION_L, middle).regime is regime:
-                low = middle
-            else:
-                high = middle
-        return low
+    def is_at_a_root(tension_s: float) -> bool:
+        return solve(design, TENSION_L, tension_s).regime is Regime.EQUILIBRIUM
 
     return (
-        last(Regime.HELD, TENSION_L, TENSION_S),
-        last(Regime.EQUILIBRIUM, TENSION_S, 10.0 * TENSION_S),
+        slipping_tension(design),
+        _edge(is_at_a_root, TENSION_S, 10.0 * TENSION_S),
     )
+
+
+def slipping_tension(design: JointDesign) -> float:
+    """Return the tension of cable s, in N, up to which the unit is held at the published T_l."""
+
+    def is_held(tension_s: float) -> bool:
+        return solve(design, TENSION_L, tension_s).regime is Regime.HELD
+
+    return _edge(is_held, TENSION_L, 100.0 * TENSION_S)
+
+
+def slipping_friction(design: JointDesign) -> float:
+    """Return the friction coefficient below which the unit slips at the published tensions."""
+
+    def slips(friction: float) -> bool:
+        unit = dataclasses.replace(design, friction_coefficient=friction)
+        return solve(unit, TENSION_L, TENSION_S).regime is not Regime.HELD
+
+    return _edge(slips, 0.01, 10.0)
+
+
+def bare_capacity(design: JointDesign) -> float:
+    """Return K / (r T) of a design without a load, which is its law's and its friction's alone."""
+    bare = dataclasses.replace(design, mass=0.0)
+    slip = taut_slip(bare, Tensions(TENSION_L, TENSION_S), UPRIGHT)
+    return slip.at(0.0).capacity  # type: ignore[no-any-return]
+
+
+def _edge(holds: Callable[[float], bool], low: float, high: float) -> float:
+    """Return up to where something holds that does at `low` and not at `high`, by halving."""
+    while high - low > 1e-9:
+        middle = 0.5 * (low + high)
+        if holds(middle):
+            low = middle
+        else:
+            high = middle
+    return low
