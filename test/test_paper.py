@@ -14,18 +14,18 @@ CASE = (PRELIMINARY, paper.TENSION_L, paper.TENSION_S, paper.BEND_ANGLE)
 
 
 def test_as_printed_the_pressure_is_negative_and_there_is_no_root():
-    assert paper.force_pressure(*CASE, tuple(paper.Slip)) < 0.0
+    assert paper.force_pressure(*CASE, tuple(paper.Misprint)) < 0.0
     for index in range(31):
         angle = PRELIMINARY.max_bend_angle * index / 30
         case = (PRELIMINARY, paper.TENSION_L, paper.TENSION_S, angle)
-        assert paper.moment_pressure(*case) > paper.force_pressure(*case, tuple(paper.Slip))
+        assert paper.moment_pressure(*case) > paper.force_pressure(*case, tuple(paper.Misprint))
 
 
-@pytest.mark.parametrize('slip', list(paper.Slip))
-def test_every_slip_alone_spoils_the_published_result(slip):
+@pytest.mark.parametrize('misprint', list(paper.Misprint))
+def test_every_misprint_alone_spoils_the_published_result(misprint):
     left = paper.moment_pressure(*CASE)
     assert paper.force_pressure(*CASE) == pytest.approx(left, abs=1e-6)
-    assert paper.force_pressure(*CASE, (slip,)) != pytest.approx(left, abs=1.0)
+    assert paper.force_pressure(*CASE, (misprint,)) != pytest.approx(left, abs=1.0)
 
 
 @given(cases())

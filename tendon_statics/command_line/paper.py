@@ -80,19 +80,19 @@ def _band(design: JointDesign) -> str:
 def _errata(design: JointDesign) -> str:
     tensions = (paper.TENSION_L, paper.TENSION_S)
 
-    def row(label: str, slips: tuple[paper.Slip, ...]) -> tuple[str, str, str]:
+    def row(label: str, misprints: tuple[paper.Misprint, ...]) -> tuple[str, str, str]:
         pressure = paper.force_pressure(
-            design, paper.TENSION_L, paper.TENSION_S, paper.BEND_ANGLE, slips
+            design, paper.TENSION_L, paper.TENSION_S, paper.BEND_ANGLE, misprints
         )
         residuals = [
             paper.moment_pressure(design, *tensions, angle) - right
             for angle in (0.0, design.max_bend_angle)
-            if (right := paper.force_pressure(design, *tensions, angle, slips)) is not None
+            if (right := paper.force_pressure(design, *tensions, angle, misprints)) is not None
         ]
         ends = ', '.join(f'{value:+.1f}' for value in residuals) or 'not real'
         return label, 'not real' if pressure is None else f'{pressure:+.1f}', ends
 
-    every = tuple(paper.Slip)
+    every = tuple(paper.Misprint)
     return markdown_table(
         (
             'Eq. (4)',
@@ -102,8 +102,8 @@ def _errata(design: JointDesign) -> str:
         [
             row('as printed', every),
             *(
-                row(f'all corrected but {slip.name.lower().replace("_", " ")}', (slip,))
-                for slip in every
+                row(f'all corrected but {misprint.name.lower().replace("_", " ")}', (misprint,))
+                for misprint in every
             ),
             row('corrected', ()),
         ],

@@ -47,7 +47,7 @@ def identify_mass_and_offset(design: JointDesign) -> JointDesign:
     )
 
 
-class Slip(Enum):
+class Misprint(Enum):
     """A place where the printed Eq. (4) differs from what Eqs. (1) to (3) give."""
 
     GROUPING = 'T (|C_F| − m g μ C_fZ), which adds m to N m; for T |C_F| − m g μ C_fZ'
@@ -60,11 +60,11 @@ def force_pressure(
     tension_l: float,
     tension_s: float,
     bend_angle: float,
-    slips: Collection[Slip] = (),
+    misprints: Collection[Misprint] = (),
 ) -> float | None:
-    """Right-hand side of Eq. (4) in Pa, with these of its slips as printed; None if not real.
+    """Right-hand side of Eq. (4) in Pa, with these of its misprints; None if not real.
 
-    With no slips it is N_f / (C w), though not in a form that keeps its digits near μ = 1.
+    With none it is N_f / (C w), though not in a form that keeps its digits near μ = 1.
     Numbers are taken as they stand where the units do not fit.
     """
     arc = contact_coefficients(design, bend_angle)
@@ -72,16 +72,16 @@ def force_pressure(
     total = tension_l + tension_s
     pressure_square = arc.pressure_x**2 + arc.pressure_z**2
     friction_square = arc.friction_x**2 + arc.friction_z**2
-    if Slip.GROUPING in slips:
+    if Misprint.GROUPING in misprints:
         linear = total * (math.sqrt(pressure_square) - weight * friction * arc.friction_z)
     else:
         linear = total * math.sqrt(pressure_square) - weight * friction * arc.friction_z
-    power = 1 if Slip.FRICTION_POWER in slips else 2
+    power = 1 if Misprint.FRICTION_POWER in misprints else 2
     square = friction**power * friction_square - pressure_square
     discriminant = linear**2 - square * (weight**2 - total**2)
     if discriminant < 0.0 or square == 0.0:
         return None
-    sign = 1.0 if Slip.SIGN in slips else -1.0
+    sign = 1.0 if Misprint.SIGN in misprints else -1.0
     return sign * (linear - math.sqrt(discriminant)) / square / design.contact_width
 
 
