@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from .design import JointDesign
-from .design_gradients import Derivatives, answer_derivatives
+from .design_gradients import Derivatives, SlipAnswer, answer_derivatives
 from .forces import Contact, ContactForces, ForceRemainder, contact_at
 from .gradients import (
     ByCable,
@@ -271,13 +271,20 @@ class Equilibrium(_Fields):
     @cached_property
     def _derivatives(self) -> tuple[Derivatives, Derivatives] | None:
         """By tilt and design. A tracked unit has been brought here by tensions of the past."""
-        if self.is_tracked or self._point is None:
+        if self.is_tracked or self.bend_angle is None:
             return None
+        rest = (self.regime, self.tension_l, self.tension_s)
+
+        def ask(design: JointDesign, load: Load, bend_angle: float) -> SlipAnswer:
+            there = Equilibrium(design, load, *rest, bend_angle, self.root_count)
+            assert there.residual is not None
+            assert there.pressure is not None
+            # Without μ: the moment that is missing, over r.
+            return SlipAnswer(there.residual * design.friction_coefficient, there.pressure)
+
         return answer_derivatives(
-            self.design,
-            self.load,
-            Tensions(self.tension_l, self.tension_s),
-            *(self._slip, self._point),
+            ask,
+            *(self.design, self.load, self.bend_angle, self.tension_l + self.tension_s),
             at_stop=self.regime is Regime.DRIVEN_TO_STOP,
         )
 
