@@ -11,6 +11,7 @@ from .design import (
     design_fields,
     design_parameters,
 )
+from .design_uncertainty import DesignUncertainty
 from .errors import (
     BendAngleError,
     CalibrationError,
@@ -30,7 +31,7 @@ from .tracker import StickSlipTracker
 
 if TYPE_CHECKING:
     from .batch import EquilibriumBatch, solve_batch
-    from .calibration import Calibration, calibrate
+    from .calibration import Calibration, LawComparison, calibrate, compare_laws
 
 __all__ = [
     'CONTACT_LAWS',
@@ -43,10 +44,12 @@ __all__ = [
     'DesignChoice',
     'DesignError',
     'DesignParameter',
+    'DesignUncertainty',
     'Equilibrium',
     'EquilibriumBatch',
     'ForceRemainder',
     'JointDesign',
+    'LawComparison',
     'Load',
     'LoadError',
     'Regime',
@@ -57,6 +60,7 @@ __all__ = [
     'UnreachableError',
     'admissible_angles',
     'calibrate',
+    'compare_laws',
     'contact_coefficients',
     'design_fields',
     'design_parameters',
@@ -74,7 +78,7 @@ def __getattr__(name: str) -> Any:
         from . import batch
 
         return getattr(batch, name)
-    if name in ('Calibration', 'calibrate'):
+    if name in ('Calibration', 'LawComparison', 'calibrate', 'compare_laws'):
         from . import calibration
 
         return getattr(calibration, name)
