@@ -88,14 +88,8 @@ def law_facts(comparison: LawComparison) -> Facts:
 
 def _law_row(fit: LawFit, *, is_best: bool) -> tuple[str, ...]:
     if fit.calibration is None:
-        return (
-            fit.law,
-            about,
-            '',
-            '',
-            'no fit' if fit.is_applicable else 'no such unit',
-            fit.failure,
-        )
+        verdict = 'no fit' if fit.is_applicable else 'no such unit'
+        return fit.law, '', '', verdict, fit.failure
     values = ', '.join(
         f'{of.name} = ' + ('not determined' if of.value is None else f'{of.value:.4g}')
         for of in fit.calibration.parameters
