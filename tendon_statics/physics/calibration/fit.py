@@ -32,7 +32,7 @@ NEAR = 0.05
 """Relative difference of all values up to which two solutions are one"""
 
 FRICTIONS = (0.1, 0.2, 0.35, 0.5, 0.75, 1.0, 1.5, 2.2)
-"""Friction coefficients that are tried as starts for a law that the start design does not have"""
+"""Friction coefficients that are tried as starts beside the design's"""
 
 
 def calibrate(
@@ -77,8 +77,7 @@ def calibrate(
     load : Load
         What acts beside the cables; what `data` has of base tilt and tip force comes first.
     contact_law : str, optional
-        Law to fit instead of the design's. As the design's friction coefficient is not one of
-        that law, the search then starts from others too.
+        Law to fit instead of the design's.
 
     Raises
     ------
@@ -101,8 +100,6 @@ def calibrate(
         design = dataclasses.replace(design, contact_law=contact_law)
     samples = SortedSamples(design, data, noise, load)
     space = ParameterSpace(Model(design), parameters, samples)
-    if contact_law is None:
-        return calibration_of(Problem(space, samples).settle())
     best, *others = settled(space, samples)
     return calibration_of(best, others)
 
