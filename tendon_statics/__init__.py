@@ -8,7 +8,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .files.design_file import default_design_path, load_design, save_design
+    from .files.design_file import (
+        default_design_path,
+        load_design,
+        load_design_uncertainty,
+        save_design,
+    )
     from .physics import (
         UPRIGHT,
         BendAngleError,
@@ -16,10 +21,12 @@ if TYPE_CHECKING:
         CalibrationError,
         ContactForces,
         DesignError,
+        DesignUncertainty,
         Equilibrium,
         EquilibriumBatch,
         ForceRemainder,
         JointDesign,
+        LawComparison,
         Load,
         LoadError,
         Regime,
@@ -31,6 +38,7 @@ if TYPE_CHECKING:
         UnreachableError,
         admissible_angles,
         calibrate,
+        compare_laws,
         design_fields,
         design_parameters,
         residual,
@@ -54,10 +62,12 @@ __all__ = [
     'CalibrationError',
     'ContactForces',
     'DesignError',
+    'DesignUncertainty',
     'Equilibrium',
     'EquilibriumBatch',
     'ForceRemainder',
     'JointDesign',
+    'LawComparison',
     'Load',
     'LoadError',
     'Recording',
@@ -72,10 +82,12 @@ __all__ = [
     'UnreachableError',
     'admissible_angles',
     'calibrate',
+    'compare_laws',
     'default_design_path',
     'design_fields',
     'design_parameters',
     'load_design',
+    'load_design_uncertainty',
     'load_recording',
     'mark_motion',
     'residual',
@@ -93,6 +105,7 @@ _NOT_OF_PHYSICS = {
     'RecordingError': '.recordings.errors',
     'default_design_path': '.files.design_file',
     'load_design': '.files.design_file',
+    'load_design_uncertainty': '.files.design_file',
     'load_recording': '.recordings.reading.load',
     'mark_motion': '.recordings.motion',
     'save_design': '.files.design_file',

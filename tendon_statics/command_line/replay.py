@@ -22,9 +22,9 @@ from .options import (
     tension_stddev_from,
 )
 from .progress import with_progress
+from .recorded_load import recorded_load
 from .recording_options import (
     add_recording_options,
-    recorded_load,
     report_damage,
     unit_and_recording,
 )

@@ -11,6 +11,7 @@ from .design import (
     design_fields,
     design_parameters,
 )
+from .design_uncertainty import DesignUncertainty
 from .errors import (
     BendAngleError,
     CalibrationError,
@@ -31,7 +32,7 @@ from .tracker import StickSlipTracker
 
 if TYPE_CHECKING:
     from .batch import EquilibriumBatch, solve_batch
-    from .calibration import Calibration, calibrate
+    from .calibration import Calibration, LawComparison, calibrate, compare_laws
 
 __all__ = [
     'CONTACT_LAWS',
@@ -44,10 +45,12 @@ __all__ = [
     'DesignChoice',
     'DesignError',
     'DesignParameter',
+    'DesignUncertainty',
     'Equilibrium',
     'EquilibriumBatch',
     'ForceRemainder',
     'JointDesign',
+    'LawComparison',
     'Load',
     'LoadError',
     'Regime',
@@ -59,6 +62,7 @@ __all__ = [
     'UnreachableError',
     'admissible_angles',
     'calibrate',
+    'compare_laws',
     'contact_coefficients',
     'design_fields',
     'design_parameters',
@@ -76,7 +80,7 @@ def __getattr__(name: str) -> Any:
         from . import batch
 
         return getattr(batch, name)
-    if name in ('Calibration', 'calibrate'):
+    if name in ('Calibration', 'LawComparison', 'calibrate', 'compare_laws'):
         from . import calibration
 
         return getattr(calibration, name)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ..physics import Calibration, design_parameters
+from ..physics import Calibration
+from ..physics.calibration.parameters import fit_parameters
 
 FACTOR = 10.0
 """Factor by which a fitted value may differ from the start, which was drawn or weighed"""
@@ -21,7 +22,7 @@ def objections(calibration: Calibration) -> list[str]:
     One that is an order of magnitude from the drawing, or a friction that no material has, is
     what samples give that were not slipping, or are in another unit.
     """
-    ranges = {parameter.name: parameter for parameter in design_parameters()}
+    ranges = {parameter.name: parameter for parameter in fit_parameters()}
     found = []
     for fitted in calibration.parameters:
         if fitted.value is None:
