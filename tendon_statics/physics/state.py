@@ -188,12 +188,14 @@ class Equilibrium(_Fields):
 
         Of `solve`; None also where they are infinite. At the stop only the stop moves the angle.
         """
-        return None if self._derivatives is None else self._derivatives[0]
+        found = self._derivatives()
+        return None if found is None else found[0]
 
     @property
     def pressure_derivatives(self) -> Derivatives | None:
         """∂p/∂x in Pa per SI unit, likewise."""
-        return None if self._derivatives is None else self._derivatives[1]
+        found = self._derivatives()
+        return None if found is None else found[1]
 
     def bend_angle_stddev(self, tension_stddev: float) -> float | None:
         """Return the standard deviation of the angle in rad, to first order, None if not known.
@@ -268,7 +270,6 @@ class Equilibrium(_Fields):
             return None
         return angle_by_tensions(self._slip, point, self.design.relative_lever)
 
-    @cached_property
     def _derivatives(self) -> tuple[Derivatives, Derivatives] | None:
         """By tilt and design. A tracked unit has been brought here by tensions of the past."""
         if self.is_tracked or self.bend_angle is None:
