@@ -83,7 +83,7 @@ class EquilibriumBatch:
         with np.errstate(all='ignore'):
             for part, slip, point in self._points():
                 flat[part] = slip.side * point.moment / point.capacity
-        return margins
+        return np.where(np.isnan(self.bend_angle), np.nan, margins)
 
     @property
     def forces(self) -> ContactForces:
