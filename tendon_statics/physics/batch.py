@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import Any
@@ -11,15 +10,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .array_numbers import ARRAYS
 from .array_roots import Floats, array_brackets, array_refine
-from .contact.law import LoadShare, Turn
+from .contact.law import LoadShare
 from .design import JointDesign
 from .errors import LoadError, TensionError
 from .forces import Contact, ContactForces, ForceRemainder, contact_at
 from .gradients import ByCable, TensionGradient, angle_by_tensions, normal_by_tensions, of_sides
 from .load import UPRIGHT, DeadLoad, Load, tension_excess
 from .moment import Moment
-from .slip import Slip, SlipPoint
+from .slip import LoadedJoint, Slip, SlipPoint
 from .solver import solve
 from .state import Regime
 from .tensions import MAX_TENSION
@@ -149,8 +149,7 @@ class EquilibriumBatch:
             *_dead_arrays(self.design, self.load),
         ):
             slip = _facing_slips(self.design, self.load, tension_l, tension_s, dead)
-            ahead = np.abs(angle)
-            yield part, slip, slip.at_turn(ahead, *_turn(ahead))
+            yield part, slip, slip.at(np.abs(angle))
 
 
 def solve_batch(
@@ -294,15 +293,9 @@ def _facing_slips(
         excess[index] = tension_excess(
             *(design, its_load, float(its_size)), float(tension_l[index]), float(tension_s[index])
         )
-    slips = Slip.towards_s(design, of_load, excess, tension_l, tension_s)
-    return slips.facing(np.where(tension_l > tension_s, -1.0, 1.0))
-
-
-def _turn(angle: Floats | float) -> tuple[Any, Any]:
-    """Cosine and sine; of one angle as `math` has them, since a last bit may decide a regime."""
-    if isinstance(angle, float):
-        return math.cos(angle), math.sin(angle)
-    return np.cos(angle), np.sin(angle)
+    side = np.where(tension_l > tension_s, -1.0, 1.0)
+    joint = LoadedJoint.of(design, of_load)
+    return Slip.of(joint, excess, tension_l, tension_s, side, ARRAYS)
 
 
 class _Rows:
@@ -319,25 +312,25 @@ class _Rows:
             return values[rows] if np.ndim(values) else values
 
         return Slip(
-            slip.law,
+            slip.joint,
             LoadShare(*map(part, slip.load)),
             (part(slip.tilt[0]), part(slip.tilt[1])),
             Moment(*map(part, slip.moment)),
             part(slip.total),
             part(slip.side),
+            ARRAYS,
         )
 
-    def values(self, rows: Any, places: Floats | float) -> Floats:
-        values: Floats = self.of(rows).value_turn(places, *_turn(places))
-        return values
+    def probe(self, rows: Any, places: Floats | float) -> Floats:
+        slip = self.of(rows)
+        *known, state = slip.probe(places)
+        lines = np.empty((len(known) + len(state), len(slip.total)))
+        for line, values in zip(lines, (*known, *state), strict=True):
+            line[:] = values
+        return lines
 
-    def values_and_slopes(self, rows: Any, places: Floats) -> tuple[Floats, Floats]:
-        point = self.of(rows).at_turn(places, *_turn(places))
-        return point.excess, point.slope
-
-    def slope_bounds(self, rows: Any, middles: Floats, half_width: float) -> tuple[Floats, Floats]:
-        turn = Turn.by(half_width)
-        return self.of(rows).slope_bounds_turn(np.cos(middles), np.sin(middles), turn)
+    def slope_bounds(self, rows: Any, one: Floats, other: Floats) -> tuple[Floats, Floats]:
+        return self.of(rows).slope_bounds(*((*ends[:8], tuple(ends[8:])) for ends in (one, other)))
 
 
 def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
@@ -373,7 +366,7 @@ def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
 
     (rooted,) = np.nonzero(counts)
     chunk.regime[taut[rooted]] = REGIME_CODES[Regime.EQUILIBRIUM]
-    roots = array_refine(rows, rooted, found.low[rooted], found.high[rooted])
+    roots = array_refine(rows, rooted, found.low[:, rooted], found.high[:, rooted])
     point = _fill(chunk, taut[rooted], rows.of(rooted), roots.places)
     chunk.stable[taut[rooted]] = point.slope < 0.0
     chunk.iterations[taut[rooted]] = roots.steps
@@ -388,10 +381,9 @@ def _fill(
     chunk: EquilibriumBatch, at: NDArray[Any], slip: Slip, ahead: Floats | float
 ) -> SlipPoint:
     """Fill in what follows from the angles ahead, in rad; return the slip functions there."""
-    point = slip.at_turn(ahead, *_turn(ahead))
-    contact = slip.law.contact(slip.load, point.cosine, point.sine, point.capacity)
+    point = slip.at(ahead)
     chunk.bend_angle[at] = slip.side * ahead
-    chunk.normal_force[at] = slip.total * contact.normal
+    chunk.normal_force[at] = slip.total * slip.law.normal(point.state, point.capacity)
     chunk.residual[at] = slip.total * point.excess / chunk.design.friction_coefficient
     return point
 
@@ -418,12 +410,12 @@ def _gradients_of(
     lever = design.relative_lever
     angle = angle_by_tensions(slip, point, lever)
     angle = ByCable(*(np.where(at_stop, 0.0, by_cable) for by_cable in angle))
-    slopes = slip.law.normal_slopes(slip.load, point.cosine, point.sine, point.capacity)
+    slopes = slip.law.normal_slopes(point.state, point.capacity)
     normal = normal_by_tensions(slip, point, slopes, lever, angle=angle, at_limit=True)
     gradients = np.array(
         [
-            *of_sides(slip.side, angle, slip.side),
-            *(by / design.contact_area for by in of_sides(slip.side, normal)),
+            *of_sides(slip, angle, slip.side),
+            *(by / design.contact_area for by in of_sides(slip, normal)),
         ]
     )
     gradients[:, ~np.isfinite(gradients).all(axis=0)] = np.nan

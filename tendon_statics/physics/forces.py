@@ -81,28 +81,26 @@ def contact_at(slip: Slip, point: SlipPoint, friction: Any) -> Contact:
         Moment that friction takes up in units of r T: M, or K where friction is at its limit and a
         stop takes the rest, as a couple.
     """
-    shares = slip.law.contact(slip.load, point.cosine, point.sine, friction)
-    total, share = slip.total, slip.load.share
+    share = slip.load.share
+    normal, (pressed, pushed), (lifted, dragged), (balanced, opposed), consistent = (
+        slip.law.contact(point.state, friction)
+    )
+    total, side = slip.total, slip.side
     cosine, sine = point.turn
-
-    def to_frame(along: Any, across: Any) -> tuple[Any, Any]:
-        """From the unit's axis, and across it to the side of slip, to X and Z."""
-        return (
-            slip.side * total * (along * sine + across * cosine),
-            total * (along * cosine - across * sine),
-        )
-
-    (balanced, pressed), (lifted, dragged) = shares.balanced, shares.friction
-    pressure_x, pressure_z = to_frame(*shares.pressure)
-    friction_x, friction_z = to_frame(lifted, dragged)
+    left_along = balanced + lifted - 1.0 - share * point.cosine
+    left_across = opposed + dragged + share * point.sine
+    # From the unit's axis, and across it to the side of slip, to X and Z.
     return Contact(
-        total * shares.normal,
-        ContactForces(pressure_x, pressure_z, -friction_x, friction_z),
-        ForceRemainder(
-            *to_frame(
-                balanced + lifted - 1.0 - share * point.cosine,
-                pressed + dragged + share * point.sine,
-            )
+        total * normal,
+        ContactForces(
+            side * total * (pressed * sine + pushed * cosine),
+            total * (pressed * cosine - pushed * sine),
+            -side * total * (lifted * sine + dragged * cosine),
+            total * (lifted * cosine - dragged * sine),
         ),
-        shares.consistent,
+        ForceRemainder(
+            side * total * (left_along * sine + left_across * cosine),
+            total * (left_along * cosine - left_across * sine),
+        ),
+        consistent,
     )

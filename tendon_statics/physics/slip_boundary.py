@@ -19,11 +19,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from .array_numbers import ARRAYS
 from .array_roots import Floats
 from .design import JointDesign
 from .gradients import ByCable, normal_by_tensions, slip_by_tensions
 from .load import UPRIGHT, Load
-from .slip import Slip
+from .slip import LoadedJoint, Slip
 
 
 class Noise(NamedTuple):
@@ -72,12 +73,12 @@ def boundary_distance(
         total = tension_l + tension_s
         dead = load.on(design)
         excess_tension = np.where(total > dead.size, total - dead.size, np.nan)
-        slip = Slip.towards_s(design, dead, excess_tension, tension_l, tension_s)
+        joint = LoadedJoint.of(design, dead)
+        slip = Slip.of(joint, excess_tension, tension_l, tension_s, numbers=ARRAYS)
         moment = slip.moment.at(bend_angle, np.cos(bend_angle), np.sin(bend_angle))
         slip = slip.facing(np.where(moment < 0.0, -1.0, 1.0))
-        ahead = slip.side * bend_angle
-        point = slip.at_turn(ahead, np.cos(ahead), np.sin(ahead))
-        slopes = slip.law.normal_slopes(slip.load, point.cosine, point.sine, point.capacity)
+        point = slip.at(slip.side * bend_angle)
+        slopes = slip.law.normal_slopes(point.state, point.capacity)
 
         scale = 1.0 / design.friction_coefficient
         excess = scale * total * point.excess

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from enum import Enum
-from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .design import JointDesign
 from .forces import Contact, ContactForces, ForceRemainder, contact_at
@@ -15,12 +14,28 @@ from .gradients import (
     finite,
     normal_by_tensions,
     of_sides,
-    root_gradient,
     stddev_of,
 )
 from .load import Load
-from .slip import Slip, SlipPoint
+from .slip import Probe, Slip, SlipPoint
 from .tensions import Tensions, taut_slip
+
+if TYPE_CHECKING:
+    from functools import cached_property as kept
+else:
+
+    class kept:  # noqa: N801
+        """`functools.cached_property` without the lock that it takes before Python 3.12."""
+
+        def __init__(self, function):
+            self.function, self.__doc__ = function, function.__doc__
+
+        def __set_name__(self, owner, name):
+            self.name = name
+
+        def __get__(self, instance, owner=None):
+            value = instance.__dict__[self.name] = self.function(instance)
+            return value
 
 
 class Regime(str, Enum):
@@ -90,8 +105,8 @@ class Equilibrium(_Fields):
         """M / K at the angle: ±1 at the limit of friction, beyond that only against the stop."""
         if self.bend_angle is None:
             return None
-        slip = self._slip
-        return slip.side * slip.margin(slip.side * self.bend_angle)
+        slip, probe = self._slip_and_probe
+        return slip.side * slip.share_of_limit(probe)
 
     @property
     def residual(self) -> float | None:
@@ -99,10 +114,10 @@ class Equilibrium(_Fields):
 
         With the paper's law N_m − N_f, Eq. (4).
         """
-        point = self._point
-        if point is None:
+        if self.bend_angle is None:
             return None
-        return point.excess * self._slip.total / self.design.friction_coefficient  # type: ignore[no-any-return]
+        slip, probe = self._slip_and_probe
+        return probe[1] * slip.total / self.design.friction_coefficient  # type: ignore[no-any-return]
 
     @property
     def stable(self) -> bool | None:
@@ -112,15 +127,17 @@ class Equilibrium(_Fields):
         """
         if self.regime is Regime.DRIVEN_TO_STOP:
             return True
-        if self.regime is not Regime.EQUILIBRIUM or self._point is None:
+        if self.regime is not Regime.EQUILIBRIUM or self.bend_angle is None:
             return None
-        return self._point.slope < 0.0  # type: ignore[no-any-return]
+        return self._slip_and_probe[1][2] < 0.0  # type: ignore[no-any-return]
 
     @property
     def normal_force(self) -> float | None:
         """N in N; None for a tracked unit where not `branch_consistent`."""
-        contact = self._contact
-        return contact.normal_force if contact and self._is_vouched_for else None
+        if self.bend_angle is None or (self.is_tracked and not self.branch_consistent):
+            return None
+        slip, probe = self._slip_and_probe
+        return slip.total * slip.law.normal(probe[8], self._friction)  # type: ignore[no-any-return]
 
     @property
     def pressure(self) -> float | None:
@@ -157,11 +174,12 @@ class Equilibrium(_Fields):
         """
         if self.is_tracked:
             return self.slip_gradient if self.angle_assured else None
-        if self._point is None:
+        by_cable = self._angle_by_cable
+        if by_cable is None or self._point is None:
             return None
         if self.regime is Regime.DRIVEN_TO_STOP:
-            return TensionGradient(0.0, 0.0)
-        return root_gradient(self._slip, self._point, self.design.relative_lever)
+            return STAYS
+        return finite(of_sides(self._slip, by_cable, self._slip.side))
 
     @property
     def pressure_gradient(self) -> TensionGradient | None:
@@ -169,17 +187,16 @@ class Equilibrium(_Fields):
         point, by_cable = self._point, self._angle_by_cable
         if point is None or by_cable is None or not self._is_vouched_for:
             return None
-        slip = self._slip
+        slip, area = self._slip, self.design.contact_area
         behind, ahead = normal_by_tensions(
             slip,
             point,
-            slip.law.normal_slopes(slip.load, point.cosine, point.sine, self._friction),
+            slip.law.normal_slopes(point.state, self._friction),
             self.design.relative_lever,
             angle=by_cable,
             at_limit=self._is_at_limit,
         )
-        area = self.design.contact_area
-        return finite(of_sides(slip.side, ByCable(behind / area, ahead / area)))
+        return finite(of_sides(slip, ByCable(behind / area, ahead / area)))
 
     def bend_angle_stddev(self, tension_stddev: float) -> float | None:
         """Return the standard deviation of the angle in rad, to first order, None if not known.
@@ -202,49 +219,58 @@ class Equilibrium(_Fields):
     # What it is worked out from
 
     @classmethod
-    def of(cls, slip: Slip, *fields: Any, **more: Any) -> Equilibrium:
-        """Make one whose slip function, towards the side of its moment, is already there."""
-        made = cls(*fields, **more)
-        made.__dict__['_slip'] = slip
+    def of(cls, slip: Slip, probe: Probe, fields: tuple[Any, ...]) -> Equilibrium:
+        """Make one whose slip function is already there, probed at the angle.
+
+        Parameters
+        ----------
+        slip : Slip
+            Towards the side to which the moment drives the unit.
+        """
+        made = cls(*fields)
+        made.__dict__['_slip_and_probe'] = slip, probe
         return made
 
-    @cached_property
-    def _slip(self) -> Slip:
-        """The slip function towards the side to which the moment drives the unit."""
+    @kept
+    def _slip_and_probe(self) -> tuple[Slip, Probe]:
+        """The slip function towards the side to which the moment drives, probed at the angle."""
         tensions = Tensions(self.tension_l, self.tension_s)
         slip = taut_slip(self.design, tensions, self.load)
-        return slip if self.bend_angle is None else slip.driving(self.bend_angle)
+        assert self.bend_angle is not None
+        return slip.driving(self.bend_angle)
 
-    @cached_property
+    @property
+    def _slip(self) -> Slip:
+        return self._slip_and_probe[0]
+
+    @kept
     def _point(self) -> SlipPoint | None:
         if self.bend_angle is None:
             return None
-        slip = self._slip
-        return slip.at(slip.side * self.bend_angle)
+        slip, probe = self._slip_and_probe
+        return slip.point(probe)
 
-    @cached_property
+    @kept
     def _contact(self) -> Contact | None:
-        if self._point is None:
-            return None
-        return contact_at(self._slip, self._point, self._friction)
+        point = self._point
+        return None if point is None else contact_at(self._slip, point, self._friction)
 
     @property
     def _is_at_limit(self) -> bool:
-        return self.regime in (Regime.EQUILIBRIUM, Regime.DRIVEN_TO_STOP)
+        return self.regime in _AT_LIMIT
 
     @property
     def _friction(self) -> float:
         """The moment that friction takes up, in units of r T."""
-        point = self._point
-        assert point is not None
-        return point.capacity if self._is_at_limit else point.moment  # type: ignore[no-any-return]
+        _, _, _, _, _, moment, _, _, (capacity, *_) = self._slip_and_probe[1]
+        return capacity if self._is_at_limit else moment  # type: ignore[no-any-return]
 
     @property
     def _is_vouched_for(self) -> bool:
         """Whether the contact force is one that the model stands behind."""
         return not self.is_tracked or bool(self.branch_consistent)
 
-    @cached_property
+    @kept
     def _angle_by_cable(self) -> ByCable | None:
         """∂θ/∂T by cable, ahead, of a root; zeros where the angle does not follow."""
         point = self._point
@@ -253,6 +279,12 @@ class Equilibrium(_Fields):
         if point.slope == 0.0:
             return None
         return angle_by_tensions(self._slip, point, self.design.relative_lever)
+
+
+STAYS = TensionGradient(0.0, 0.0)
+"""Of an angle that does not follow the tensions"""
+
+_AT_LIMIT = frozenset((Regime.EQUILIBRIUM, Regime.DRIVEN_TO_STOP))
 
 
 _REPORTED = (

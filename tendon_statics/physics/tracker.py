@@ -11,7 +11,7 @@ from .design import JointDesign
 from .gradients import TensionGradient, root_gradient
 from .load import UPRIGHT, DeadLoad, Load
 from .roots import refine
-from .slip import Slip
+from .slip import LoadedJoint, Slip
 from .state import Equilibrium, Regime
 from .tensions import Tensions, check_tensions, taut_slip
 
@@ -100,21 +100,22 @@ class StickSlipTracker:
             As `solve` does; the unit then stays as it was.
         """
         tensions = check_tensions(tension_l, tension_s)
+        tension_l, tension_s = tensions
         fields = (self._design, load)
         if tensions.slack_cable:
             self.doubt()
             return Equilibrium(*fields, Regime.SLACK, *tensions, angle_assured=False)
         slip = taut_slip(self._design, tensions, load)
-        margin = slip.margin(self._bend_angle)
+        driving, probe = slip.driving(self._bend_angle)
+        margin = driving.side * slip.share_of_limit(probe)
         step = _Step(tensions, load, slip, margin)
-        regime = Regime.HELD if abs(margin) <= 1.0 else self._move(step)
+        regime = Regime.HELD
+        if not -1.0 <= margin <= 1.0:
+            regime = self._move(step)
+            driving, probe = slip.driving(self._bend_angle)
         self._before = step
-        return Equilibrium.of(
-            slip.driving(self._bend_angle),
-            *(*fields, regime, *tensions, self._bend_angle),
-            angle_assured=self._assured,
-            slip_gradient=self._gradient,
-        )
+        where = self._bend_angle, None, None, self._assured, self._gradient
+        return Equilibrium.of(driving, probe, (*fields, regime, tension_l, tension_s, *where))
 
     def _move(self, step: _Step) -> Regime:
         """Let the unit slip on the way from the last tensions to these; return how it ends."""
@@ -152,12 +153,14 @@ class StickSlipTracker:
         That is the first root from where it is: up to there it is driven on.
         """
         start, stop = slip.side * self._bend_angle, self._design.max_bend_angle
-        found = slip.brackets(start, stop) if start < stop else []
+        found = slip.brackets(slip.probe(start), slip.probe(stop)) if start < stop else []
         if not found:
             return self._come_to_stop(slip.side)
         landing, _ = refine(slip, found[0])
-        self._bend_angle = slip.side * landing
-        self._gradient = root_gradient(slip, slip.at(landing), self._design.relative_lever)
+        self._bend_angle = slip.side * landing[0]
+        self._gradient = root_gradient(
+            slip, slip.point(landing), self._design.relative_lever
+        )
         return Regime.SLIPPING
 
     def _way(self, step: _Step) -> list[Slip]:
@@ -177,7 +180,7 @@ class StickSlipTracker:
             share = index / STEPS
             dead = DeadLoad(*_on_the_way(old, new, share))
             pair = Tensions(*_on_the_way(before.tensions, step.tensions, share))
-            between.append(Slip.towards_s(design, dead, sum(pair) - dead.size, *pair))
+            between.append(Slip.of(LoadedJoint.of(design, dead), sum(pair) - dead.size, *pair))
         return [*between, step.slip]
 
     def _grows(self, before: _Step, step: _Step) -> bool:
