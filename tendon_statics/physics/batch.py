@@ -12,13 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from .array_numbers import ARRAYS
 from .array_roots import Floats, array_brackets, array_refine
-from .contact.law import LoadShare
 from .design import JointDesign
 from .errors import LoadError, TensionError
 from .forces import Contact, ContactForces, ForceRemainder, contact_at
-from .gradients import ByCable, TensionGradient, angle_by_tensions, normal_by_tensions, of_sides
+from .gradients import TensionGradient, angle_by_tensions, normal_by_tensions, of_sides
 from .load import UPRIGHT, DeadLoad, Load, tension_excess
-from .moment import Moment
 from .slip import LoadedJoint, Slip, SlipPoint
 from .solver import solve
 from .state import Regime
@@ -295,7 +293,7 @@ def _facing_slips(
         )
     side = np.where(tension_l > tension_s, -1.0, 1.0)
     joint = LoadedJoint.of(design, of_load)
-    return Slip.of(joint, excess, tension_l, tension_s, side, ARRAYS)
+    return Slip(joint, excess, tension_l, tension_s, side, ARRAYS)
 
 
 class _Rows:
@@ -304,25 +302,8 @@ class _Rows:
     def __init__(self, slip: Slip) -> None:
         self.slip = slip
 
-    def of(self, rows: Any) -> Slip:
-        """Return the slip functions of some of the pairs."""
-        slip = self.slip
-
-        def part(values: Any) -> Any:
-            return values[rows] if np.ndim(values) else values
-
-        return Slip(
-            slip.joint,
-            LoadShare(*map(part, slip.load)),
-            (part(slip.tilt[0]), part(slip.tilt[1])),
-            Moment(*map(part, slip.moment)),
-            part(slip.total),
-            part(slip.side),
-            ARRAYS,
-        )
-
     def probe(self, rows: Any, places: Floats | float) -> Floats:
-        slip = self.of(rows)
+        slip = self.slip.part(rows)
         *known, state = slip.probe(places)
         lines = np.empty((len(known) + len(state), len(slip.total)))
         for line, values in zip(lines, (*known, *state), strict=True):
@@ -330,7 +311,7 @@ class _Rows:
         return lines
 
     def slope_bounds(self, rows: Any, one: Floats, other: Floats) -> tuple[Floats, Floats]:
-        return self.of(rows).slope_bounds(*((*ends[:8], tuple(ends[8:])) for ends in (one, other)))
+        return self.slip.part(rows).slope_bounds(*((*ends[:8], tuple(ends[8:])) for ends in (one, other)))
 
 
 def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
@@ -346,12 +327,12 @@ def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
             design, load, tension_l[taut], tension_s[taut], [part[taut] for part in dead]
         )
     )
-    light = rows.slip.load.excess > 0.0
+    light = rows.slip.excess > 0.0
     if not light.all():
         if design.law.carries_more_than_cables:
             for index in taut[~light]:
                 _solve_one(chunk, index)
-        taut, rows = taut[light], _Rows(rows.of(light))
+        taut, rows = taut[light], _Rows(rows.slip.part(light))
     stop = design.max_bend_angle
     found = array_brackets(rows, len(taut), 0.0, stop)
     counts = np.where(rows.slip.is_determined, found.root_count, 0)
@@ -361,13 +342,13 @@ def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
 
     (at_stop,) = np.nonzero(driven)
     chunk.regime[taut[at_stop]] = REGIME_CODES[Regime.DRIVEN_TO_STOP]
-    _fill(chunk, taut[at_stop], rows.of(at_stop), stop)
+    _fill(chunk, taut[at_stop], rows.slip.part(at_stop), stop)
     chunk.stable[taut[at_stop]] = True
 
     (rooted,) = np.nonzero(counts)
     chunk.regime[taut[rooted]] = REGIME_CODES[Regime.EQUILIBRIUM]
     roots = array_refine(rows, rooted, found.low[:, rooted], found.high[:, rooted])
-    point = _fill(chunk, taut[rooted], rows.of(rooted), roots.places)
+    point = _fill(chunk, taut[rooted], rows.slip.part(rooted), roots.places)
     chunk.stable[taut[rooted]] = point.slope < 0.0
     chunk.iterations[taut[rooted]] = roots.steps
 
@@ -408,8 +389,8 @@ def _gradients_of(
 ) -> Floats:
     """∂θ/∂T_l, ∂θ/∂T_s, ∂p/∂T_l and ∂p/∂T_s of units that are about to slip, or at their stop."""
     lever = design.relative_lever
-    angle = angle_by_tensions(slip, point, lever)
-    angle = ByCable(*(np.where(at_stop, 0.0, by_cable) for by_cable in angle))
+    behind, ahead = angle_by_tensions(slip, point, lever)
+    angle = np.where(at_stop, 0.0, behind), np.where(at_stop, 0.0, ahead)
     slopes = slip.law.normal_slopes(point.state, point.capacity)
     normal = normal_by_tensions(slip, point, slopes, lever, angle=angle, at_limit=True)
     gradients = np.array(

@@ -47,6 +47,16 @@ class ContactForces(NamedTuple):
     friction_z: Any
     """F_fZ, friction, along Z"""
 
+    def as_dict(self) -> dict[str, Any]:
+        """Return `_asdict`, spelt out, which takes a fifth of the time."""
+        x, z, friction_x, friction_z = self
+        return {
+            'pressure_x': x,
+            'pressure_z': z,
+            'friction_x': friction_x,
+            'friction_z': friction_z,
+        }
+
 
 class ForceRemainder(NamedTuple):
     """What Eqs. (1) and (2) leave over, one by one, in N.
@@ -59,6 +69,11 @@ class ForceRemainder(NamedTuple):
     """(N − T) sin θ − F_fX + P_x"""
     z: Any
     """(N − T) cos θ + F_fZ + P_z"""
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return `_asdict`, spelt out as that of `ContactForces`."""
+        x, z = self
+        return {'x': x, 'z': z}
 
 
 class Contact(NamedTuple):
@@ -81,10 +96,11 @@ def contact_at(slip: Slip, point: SlipPoint, friction: Any) -> Contact:
         Moment that friction takes up in units of r T: M, or K where friction is at its limit and a
         stop takes the rest, as a couple.
     """
-    share = slip.load.share
-    normal, (pressed, pushed), (lifted, dragged), (balanced, opposed), consistent = (
-        slip.law.contact(point.state, friction)
+    normal = slip.law.normal(point.state, friction)
+    (pressed, pushed), (lifted, dragged), (balanced, opposed), consistent = slip.law.contact(
+        point.state, friction, normal
     )
+    share = slip.share
     total, side = slip.total, slip.side
     cosine, sine = point.turn
     left_along = balanced + lifted - 1.0 - share * point.cosine

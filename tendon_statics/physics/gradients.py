@@ -15,6 +15,11 @@ class TensionGradient(NamedTuple):
     tension_l: Any
     tension_s: Any
 
+    def as_dict(self) -> dict[str, Any]:
+        """Return `_asdict`, spelt out, which takes a fifth of the time."""
+        by_l, by_s = self
+        return {'tension_l': by_l, 'tension_s': by_s}
+
     def stddev(self, tension_stddev: float) -> float:
         """Standard deviation of the quantity, to first order.
 
@@ -37,11 +42,8 @@ def finite(gradient: TensionGradient) -> TensionGradient | None:
     return gradient if math.isfinite(by_l) and math.isfinite(by_s) else None
 
 
-class ByCable(NamedTuple):
-    """Derivatives by the tension of the cable behind the unit and of that ahead of it."""
-
-    behind: Any
-    ahead: Any
+ByCable = tuple[Any, Any]
+"""Derivatives by the tension of the cable behind the unit and of that ahead of it"""
 
 
 def slip_by_tensions(slip: Slip, point: SlipPoint, lever: float) -> ByCable:
@@ -52,15 +54,15 @@ def slip_by_tensions(slip: Slip, point: SlipPoint, lever: float) -> ByCable:
     lever : float
         (r + δ) / r.
     """
-    share = slip.load.share
+    share = slip.share
     common = share * point.by_share - point.moment
-    return ByCable((common - lever) / slip.total, (common + lever) / slip.total)
+    return (common - lever) / slip.total, (common + lever) / slip.total
 
 
 def angle_by_tensions(slip: Slip, point: SlipPoint, lever: float) -> ByCable:
     """∂θ/∂T of the root of g in rad/N, ahead."""
     (behind, ahead), slope = slip_by_tensions(slip, point, lever), point.slope
-    return ByCable(-behind / slope, -ahead / slope)
+    return -behind / slope, -ahead / slope
 
 
 def root_gradient(slip: Slip, point: SlipPoint, lever: float) -> TensionGradient | None:
@@ -90,16 +92,16 @@ def normal_by_tensions(
     at_limit : bool
         Whether friction is at its limit; otherwise it takes up the moment.
     """
-    share, total, by_tilt = slip.load.share, slip.total, point.by_tilt
+    share, total, by_tilt = slip.share, slip.total, point.by_tilt
     share_part = share * point.by_share
     n, n_by_share, n_by_tilt, n_by_moment = normal
     common = n - share * n_by_share
-    behind, ahead = total * angle.behind, total * angle.ahead
+    behind, ahead = total * angle[0], total * angle[1]
     if at_limit:
         of_behind, of_ahead = by_tilt * behind - share_part, by_tilt * ahead - share_part
     else:
         of_behind, of_ahead = -lever - point.moment, lever - point.moment
-    return ByCable(
+    return (
         common + n_by_tilt * behind + n_by_moment * of_behind,
         common + n_by_tilt * ahead + n_by_moment * of_ahead,
     )

@@ -17,15 +17,18 @@ FLAT_WIDTH = 1e-8
 """Width of an interval in which the rounding of the function hides its slope, if it got this
 narrow"""
 
-MOST_CUTS = 2000
-"""Intervals that are halved before the rest is taken as too flat to resolve; a few suffice for any
-function but one made up to be flat"""
+MOST_INTERVALS = 4000
+"""Intervals that are looked at before the rest is taken as too flat to resolve; a few suffice for
+any function but one made up to be flat"""
 
 MOST_HELPED_STEPS = 12
 """Steps after which a bracket is halved only; four or five are enough as a rule"""
 
 OVERSHOOT = 0.45 * ANGLE_TOLERANCE
 """How far beyond the root the last step is aimed, so that rounding does not put it before"""
+
+LEAST = 5e-324
+"""Added to what may be zero, so that what is divided by it is infinite: no other number changes"""
 
 SAME = 1e-15
 """Distance in rad within which a place is the root"""
@@ -58,24 +61,20 @@ def brackets(function: BoundedFunction, low: Probe, high: Probe) -> list[Bracket
     found = [(low, low)] if low[1] == 0.0 else []
     pending = [(low, high)]
     unresolved: list[Bracket] = []
-    cuts = 0
-    # Level by level, so that at the limit what is left is of one width.
-    while pending:
-        level, pending = pending, []
-        for interval in level:
-            left, right = interval
-            least, greatest = function.slope_bounds(left, right)
-            if least > 0.0 or greatest < 0.0:
-                if _changes_sign(left[1], right[1]):
-                    found.append(interval)
-            elif _may_vanish(left, right, least, greatest):
-                if right[0] - left[0] < FLAT_WIDTH or cuts >= MOST_CUTS:
-                    unresolved.append(interval)
-                else:
-                    middle = function.probe(0.5 * (left[0] + right[0]))
-                    pending.append((left, middle))
-                    pending.append((middle, right))
-                    cuts += 1
+    # It grows while it is gone through, level by level, so that at the limit what is left is of
+    # one width.
+    for interval in pending:
+        left, right = interval
+        least, greatest = function.slope_bounds(left, right)
+        if least > 0.0 or greatest < 0.0:
+            if _changes_sign(left[1], right[1]):
+                found.append(interval)
+        elif _may_vanish(left, right, least, greatest):
+            if right[0] - left[0] < FLAT_WIDTH or len(pending) > MOST_INTERVALS:
+                unresolved.append(interval)
+            else:
+                middle = function.probe(0.5 * (left[0] + right[0]))
+                pending += (left, middle), (middle, right)
     if unresolved:
         for cluster in _clusters(unresolved):
             found += _brackets_in(cluster)
@@ -100,7 +99,7 @@ def refine(function: BoundedFunction, bracket: Bracket) -> tuple[Probe, int]:
         if not low[0] < ahead < high[0]:
             ahead = 0.5 * (low[0] + high[0])
         probe = function.probe(ahead)
-        place, value, slope = probe[:3]
+        value, slope = probe[1], probe[2]
         steps += 1
         if (value < 0.0) is rising:
             low, beyond = probe, OVERSHOOT
@@ -108,8 +107,8 @@ def refine(function: BoundedFunction, bracket: Bracket) -> tuple[Probe, int]:
             high, beyond = probe, -OVERSHOOT
         if steps >= MOST_HELPED_STEPS:
             ahead = math.nan
-        elif abs(value) <= OVERSHOOT * abs(slope):
-            ahead = place - value / slope + beyond if slope else math.nan
+        elif slope and -OVERSHOOT < (step := value / slope) < OVERSHOOT:
+            ahead += beyond - step
         else:
             ahead = cubic_zero(low, high)
     root = min(max(_chord_zero(low, high), low[0]), high[0])
@@ -124,13 +123,11 @@ def cubic_zero(low: Any, high: Any) -> Any:
 
     NaN, or any place, where the function is not monotonic between them; floats, or arrays.
     """
-    place, value, slope = low[:3]
-    other_place, other_value, other_slope = high[:3]
+    place, value, slope = low[0], low[1], low[2]
+    other_place, other_value, other_slope = high[0], high[1], high[2]
     rise, width = other_value - value, other_place - place
-    if isinstance(rise, float) and rise * slope * other_slope == 0.0:
-        return math.nan
-    share = -value / rise
-    start, end = rise / slope, rise / other_slope
+    share = -value / (rise + LEAST)
+    start, end = rise / (slope + LEAST), rise / (other_slope + LEAST)
     bend = start + end - 2.0 * width
     return place + share * (start + share * (width - start - bend + share * bend))
 

@@ -3,18 +3,24 @@
 It is written for slipping towards cable s. Slipping towards cable l is the mirror image (cables
 swapped, angle and what lies across the axis negated), which is made here and nowhere else: angles
 are counted *ahead*, positive to the side of slip.
+
+The moment M of all but friction about the centre of the ball is Eq. (3),
+
+    M(θ) = ΔT (r + δ) + Q_x cos θ − Q_z sin θ − k θ,
+
+with ΔT = T_s − T_l, the moment Q of the dead load (see `load`) and the stiffness k of a backbone.
+For an upright unit with nothing at its tip the middle is W l sin θ, the paper's. K is the contact
+law's.
 """
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
-from .contact.law import ContactLaw, LoadShare, State
+from .contact.law import ContactLaw, State
 from .contact.numbers import FLOATS, Numbers, wave_bounds
 from .design import JointDesign
 from .load import DeadLoad, Load
-from .moment import Moment
 from .roots import Bracket, brackets
 
 NEGLIGIBLE_LOAD = 1e-9
@@ -119,14 +125,10 @@ class Slip:
     Parameters
     ----------
     joint : LoadedJoint
-    load : LoadShare
-        Size of the dead load as a share of T.
-    tilt : tuple of float
-        cos ψ and sin ψ at zero bend, ahead.
-    moment : Moment
-        M / (r T), ahead.
-    total : float
-        T in N.
+    excess : float
+        T − |P| in N, above 0 as a rule.
+    tension_l, tension_s : float
+        In N.
     side : float
         1 for slipping towards cable s, −1 for cable l.
     numbers : Numbers
@@ -134,112 +136,95 @@ class Slip:
 
     Attributes
     ----------
+    excess : float
+        T − |P| in N, as given.
+    total : float
+        T in N.
+    share : float
+        w = |P| / T.
     law : LoadedLaw
         The contact law under this load.
     """
 
-    __slots__ = ('joint', 'law', 'load', 'moment', 'numbers', 'side', 'tilt', 'total')
+    __slots__ = (
+        *('_cosine', '_of_angle', '_of_cosine', '_of_sine', '_offset', '_sine', '_tensions'),
+        *('excess', 'joint', 'law', 'numbers', 'share', 'side', 'tilt', 'total'),
+    )
 
     def __init__(
         self,
-        joint: LoadedJoint,
-        load: LoadShare,
-        tilt: tuple[Any, Any],
-        moment: Moment,
-        total: Any,
-        side: Any = 1.0,
-        numbers: Numbers = FLOATS,
-    ) -> None:
-        self.joint = joint
-        self.load = load
-        self.tilt = tilt
-        self.moment = moment
-        self.total = total
-        self.side = side
-        self.numbers = numbers
-        self.law = joint.law.under(load, tilt, numbers)
-
-    @classmethod
-    def of(
-        cls,
         joint: LoadedJoint,
         excess: Any,
         tension_l: Any,
         tension_s: Any,
         side: Any = 1.0,
         numbers: Numbers = FLOATS,
-    ) -> Slip:
-        """Return the slip function towards a side.
-
-        Parameters
-        ----------
-        excess : float
-            T − |P| in N, above 0.
-        tension_l, tension_s : float
-            In N.
-        side : float
-            1 for slipping towards cable s, −1 for cable l.
-        """
+    ) -> None:
+        law, size, (cosine, sine), lever, moment_x, moment_z, stiffness, _ = joint
         total = tension_l + tension_s
-        share, spare = joint.size / total, excess / total
-        cosine, sine = joint.tilt
-        return cls(
-            joint,
-            LoadShare(share, spare, spare * (1.0 + share)),
-            (cosine, side * sine),
-            Moment(
-                side * (tension_s - tension_l) / total * joint.lever,
-                side * joint.moment_x / total,
-                -joint.moment_z / total,
-                joint.stiffness / total,
-            ),
-            total,
-            side,
-            numbers,
-        )
+        self.joint, self.side, self.numbers, self.total = joint, side, numbers, total
+        self.excess, self._tensions = excess, (tension_l, tension_s)
+        self._cosine, self._sine = numbers.cosine, numbers.sine
+        self.share = share = size / total
+        spare = excess / total
+        self.tilt = tilt = cosine, side * sine
+        self.law = law.under((share, spare, spare * (1.0 + share)), tilt, numbers)
+        # M / (r T) by parts
+        self._offset = side * (tension_s - tension_l) / total * lever
+        self._of_cosine = side * moment_x / total
+        self._of_sine = -moment_z / total
+        self._of_angle = -stiffness / total
+
+    def part(self, rows: Any) -> Slip:
+        """Return the slip functions of some of the pairs that there are in arrays."""
+
+        def part(values: Any) -> Any:
+            return values[rows] if getattr(values, 'ndim', 0) else values
+
+        joint = self.joint
+        if getattr(joint.size, 'ndim', 0):
+            law, size, tilt, lever, moment_x, moment_z, stiffness, turning = joint
+            joint = LoadedJoint(
+                *(law, part(size), (part(tilt[0]), part(tilt[1])), lever),
+                *(part(moment_x), part(moment_z), stiffness, part(turning)),
+            )
+        left, right = map(part, self._tensions)
+        return Slip(joint, part(self.excess), left, right, part(self.side), self.numbers)
+
+    def facing(self, sign: Any) -> Slip:
+        """Return the slip function towards the other side where `sign` is −1, the same for 1."""
+        left, right = self._tensions
+        return Slip(self.joint, self.excess, left, right, sign * self.side, self.numbers)
 
     def mirrored(self) -> Slip:
         """Return the slip function towards the other side."""
         return self.facing(-1.0)
 
-    def facing(self, sign: Any) -> Slip:
-        """Return the slip function towards the other side where `sign` is −1, the same for 1."""
-        cosine, sine = self.tilt
-        offset, of_cosine, of_sine, stiffness = self.moment
-        return Slip(
-            self.joint,
-            self.load,
-            (cosine, sign * sine),
-            Moment(sign * offset, sign * of_cosine, of_sine, stiffness),
-            self.total,
-            sign * self.side,
-            self.numbers,
-        )
-
     def probe(self, angle: Any) -> Probe:
         """Look at an angle ahead in rad."""
-        numbers = self.numbers
-        cosine, sine = numbers.cosine(angle), numbers.sine(angle)
+        cosine, sine = self._cosine(angle), self._sine(angle)
         state = self.law.at(cosine, sine)
-        offset, of_cosine, of_sine, stiffness = self.moment
+        of_cosine, of_sine, of_angle = self._of_cosine, self._of_sine, self._of_angle
         wave, wave_slope = of_sine * cosine - of_cosine * sine, of_cosine * cosine + of_sine * sine
-        moment = offset + wave_slope - stiffness * angle
-        excess, slope = moment - state[0], wave - stiffness - state[1]
+        moment = self._offset + wave_slope + of_angle * angle
+        excess, slope = moment - state[0], wave + of_angle - state[1]
         return angle, excess, slope, cosine, sine, moment, wave, wave_slope, state
 
     def slope_bounds(self, one: Probe, other: Probe) -> tuple[Any, Any]:
         """Return bounds of ∂g/∂θ in units of r T between two angles, at most half a turn apart."""
         angle, _, _, _, _, _, wave, wave_slope, state = one
         other_angle, _, _, _, _, _, other_wave, other_wave_slope, other_state = other
-        moment, numbers = self.moment, self.numbers
         low, high = wave_bounds(
-            numbers,
-            *(wave, -wave_slope),
-            *(other_wave, -other_wave_slope),
-            abs(moment.cosine) + abs(moment.sine),
+            self.numbers,
+            wave,
+            -wave_slope,
+            other_wave,
+            -other_wave_slope,
+            abs(self._of_cosine) + abs(self._of_sine),
         )
         least, greatest = self.law.slope_bounds(state, other_state, other_angle - angle)
-        return low - moment.stiffness - greatest, high - moment.stiffness - least
+        of_angle = self._of_angle
+        return low + of_angle - greatest, high + of_angle - least
 
     def brackets(self, one: Probe, other: Probe) -> list[Bracket]:
         """Bracket all roots of g between two angles ahead; see `roots.brackets`.
@@ -278,6 +263,10 @@ class Slip:
     def value(self, angle: Any) -> Any:
         """Return g in units of r T at an angle ahead in rad."""
         return self.probe(angle)[1]
+
+    def moment_at(self, angle: Any) -> Any:
+        """Return M in units of r T, ahead, at an angle ahead in rad."""
+        return self.probe(angle)[5]
 
     def margin(self, angle: float) -> float:
         """M / K at an angle ahead in rad, with the capacity on the side of M.

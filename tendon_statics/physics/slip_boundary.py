@@ -22,7 +22,7 @@ import numpy as np
 from .array_numbers import ARRAYS
 from .array_roots import Floats
 from .design import JointDesign
-from .gradients import ByCable, normal_by_tensions, slip_by_tensions
+from .gradients import normal_by_tensions, slip_by_tensions
 from .load import UPRIGHT, Load
 from .slip import LoadedJoint, Slip
 
@@ -74,11 +74,12 @@ def boundary_distance(
         dead = load.on(design)
         excess_tension = np.where(total > dead.size, total - dead.size, np.nan)
         joint = LoadedJoint.of(design, dead)
-        slip = Slip.of(joint, excess_tension, tension_l, tension_s, numbers=ARRAYS)
-        moment = slip.moment.at(bend_angle, np.cos(bend_angle), np.sin(bend_angle))
+        slip = Slip(joint, excess_tension, tension_l, tension_s, numbers=ARRAYS)
+        moment = slip.moment_at(bend_angle)
         slip = slip.facing(np.where(moment < 0.0, -1.0, 1.0))
         point = slip.at(slip.side * bend_angle)
         slopes = slip.law.normal_slopes(point.state, point.capacity)
+        normal, _, normal_by_tilt, normal_by_moment = slopes
 
         scale = 1.0 / design.friction_coefficient
         excess = scale * total * point.excess
@@ -88,9 +89,10 @@ def boundary_distance(
         by_behind, by_ahead = by_behind + scale * point.excess, by_ahead + scale * point.excess
         by_angle = scale * total * point.slope
 
-        still = ByCable(0.0, 0.0)
-        force = normal_by_tensions(slip, point, slopes, lever, angle=still, at_limit=True)
-        force_by_angle = total * (slopes.by_tilt + slopes.by_moment * point.by_tilt)
+        force_by_behind, force_by_ahead = normal_by_tensions(
+            slip, point, slopes, lever, angle=(0.0, 0.0), at_limit=True
+        )
+        force_by_angle = total * (normal_by_tilt + normal_by_moment * point.by_tilt)
 
         of_tension, of_angle = noise.tension**2, noise.bend_angle**2
         variance = of_tension * (by_behind**2 + by_ahead**2) + of_angle * by_angle**2
@@ -98,11 +100,11 @@ def boundary_distance(
 
         # q = p C w − N: all its noise but that of p comes with the minus of N.
         area = design.contact_area
-        covariance = -of_tension * (force.behind * by_behind + force.ahead * by_ahead)
+        covariance = -of_tension * (force_by_behind * by_behind + force_by_ahead * by_ahead)
         covariance -= of_angle * force_by_angle * by_angle
-        pressure_variance = of_tension * (force.behind**2 + force.ahead**2)
+        pressure_variance = of_tension * (force_by_behind**2 + force_by_ahead**2)
         pressure_variance += of_angle * force_by_angle**2 + (noise.pressure * area) ** 2
-        beyond = pressure * area - total * slopes.normal - covariance / variance * excess
+        beyond = pressure * area - total * normal - covariance / variance * excess
         pressure_variance -= covariance**2 / variance
         pressure_standardised = beyond / np.sqrt(pressure_variance)
     side: Any = slip.side

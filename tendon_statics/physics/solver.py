@@ -34,9 +34,8 @@ def solve(
     """
     tensions = check_tensions(tension_l, tension_s)
     tension_l, tension_s = tensions
-    fields = (design, load)
     if tension_l == 0.0 or tension_s == 0.0:
-        return Equilibrium(*fields, Regime.SLACK, tension_l, tension_s, None, 0, 0)
+        return Equilibrium(design, load, Regime.SLACK, tension_l, tension_s, None, 0, 0)
 
     slip = taut_slip(design, tensions, load, -1.0 if tension_l > tension_s else 1.0)
     first, last = slip.probe(0.0), slip.probe(design.max_bend_angle)
@@ -48,10 +47,12 @@ def solve(
         probe, iterations = last, 0
         regime = Regime.DRIVEN_TO_STOP
     else:
-        return Equilibrium(*fields, Regime.HELD, tension_l, tension_s, None, 0, 0)
+        return Equilibrium(design, load, Regime.HELD, tension_l, tension_s, None, 0, 0)
     angle = slip.side * probe[0]
     return Equilibrium.of(
-        slip, probe, (*fields, regime, tension_l, tension_s, angle, len(found), iterations)
+        slip,
+        probe,
+        (design, load, regime, tension_l, tension_s, angle, len(found), iterations, True, None),
     )
 
 

@@ -125,17 +125,16 @@ class Equilibrium(_Fields):
 
         None where friction is not at its limit.
         """
-        if self.regime is Regime.DRIVEN_TO_STOP:
-            return True
-        if self.regime is not Regime.EQUILIBRIUM or self.bend_angle is None:
-            return None
-        return self._slip_and_probe[1][2] < 0.0  # type: ignore[no-any-return]
+        if self.regime is Regime.EQUILIBRIUM:
+            return self._slip_and_probe[1][2] < 0.0  # type: ignore[no-any-return]
+        return True if self.regime is Regime.DRIVEN_TO_STOP else None
 
     @property
     def normal_force(self) -> float | None:
         """N in N; None for a tracked unit where not `branch_consistent`."""
-        if self.bend_angle is None or (self.is_tracked and not self.branch_consistent):
-            return None
+        if self.is_tracked or self.bend_angle is None:
+            contact = self._contact
+            return contact.normal_force if contact is not None and contact.consistent else None
         slip, probe = self._slip_and_probe
         return slip.total * slip.law.normal(probe[8], self._friction)  # type: ignore[no-any-return]
 
@@ -148,14 +147,14 @@ class Equilibrium(_Fields):
     @property
     def forces(self) -> ContactForces | None:
         """The forces on the joint surface."""
-        contact = self._contact
-        return contact.forces if contact and self._is_vouched_for else None
+        contact = self._assured_contact
+        return None if contact is None else contact.forces
 
     @property
     def force_remainder(self) -> ForceRemainder | None:
         """What Eqs. (1) and (2) leave over, one by one."""
-        contact = self._contact
-        return contact.remainder if contact and self._is_vouched_for else None
+        contact = self._assured_contact
+        return None if contact is None else contact.remainder
 
     @property
     def branch_consistent(self) -> bool | None:
@@ -174,29 +173,12 @@ class Equilibrium(_Fields):
         """
         if self.is_tracked:
             return self.slip_gradient if self.angle_assured else None
-        by_cable = self._angle_by_cable
-        if by_cable is None or self._point is None:
-            return None
-        if self.regime is Regime.DRIVEN_TO_STOP:
-            return STAYS
-        return finite(of_sides(self._slip, by_cable, self._slip.side))
+        return self._gradients[0]
 
     @property
     def pressure_gradient(self) -> TensionGradient | None:
         """∂p/∂T in Pa/N; None also where it is infinite."""
-        point, by_cable = self._point, self._angle_by_cable
-        if point is None or by_cable is None or not self._is_vouched_for:
-            return None
-        slip, area = self._slip, self.design.contact_area
-        behind, ahead = normal_by_tensions(
-            slip,
-            point,
-            slip.law.normal_slopes(point.state, self._friction),
-            self.design.relative_lever,
-            angle=by_cable,
-            at_limit=self._is_at_limit,
-        )
-        return finite(of_sides(slip, ByCable(behind / area, ahead / area)))
+        return None if self._assured_contact is None else self._gradients[1]
 
     def bend_angle_stddev(self, tension_stddev: float) -> float | None:
         """Return the standard deviation of the angle in rad, to first order, None if not known.
@@ -214,7 +196,27 @@ class Equilibrium(_Fields):
 
     def as_dict(self) -> dict[str, Any]:
         """Return all but design and load by name, ready for JSON: nested as dicts."""
-        return {name: _plain(getattr(self, name)) for name in _REPORTED}
+        contact = self._assured_contact
+        by_tension, pressure_by_tension = self.bend_angle_gradient, self.pressure_gradient
+        return {
+            'regime': self.regime.value,
+            'tension_l': self.tension_l,
+            'tension_s': self.tension_s,
+            'bend_angle': self.bend_angle,
+            'angle_assured': self.angle_assured,
+            'slip_margin': self.slip_margin,
+            'pressure': contact and contact.normal_force / self.design.contact_area,
+            'normal_force': contact and contact.normal_force,
+            'root_count': self.root_count,
+            'iterations': self.iterations,
+            'stable': self.stable,
+            'residual': self.residual,
+            'forces': contact and contact.forces.as_dict(),
+            'force_remainder': contact and contact.remainder.as_dict(),
+            'branch_consistent': self.branch_consistent,
+            'bend_angle_gradient': by_tension and by_tension.as_dict(),
+            'pressure_gradient': pressure_by_tension and pressure_by_tension.as_dict(),
+        }
 
     # What it is worked out from
 
@@ -226,8 +228,10 @@ class Equilibrium(_Fields):
         ----------
         slip : Slip
             Towards the side to which the moment drives the unit.
+        fields : tuple
+            All of them.
         """
-        made = cls(*fields)
+        made = cls._make(fields)
         made.__dict__['_slip_and_probe'] = slip, probe
         return made
 
@@ -239,62 +243,57 @@ class Equilibrium(_Fields):
         assert self.bend_angle is not None
         return slip.driving(self.bend_angle)
 
-    @property
-    def _slip(self) -> Slip:
-        return self._slip_and_probe[0]
-
     @kept
-    def _point(self) -> SlipPoint | None:
-        if self.bend_angle is None:
-            return None
+    def _point(self) -> SlipPoint:
         slip, probe = self._slip_and_probe
         return slip.point(probe)
 
-    @kept
-    def _contact(self) -> Contact | None:
-        point = self._point
-        return None if point is None else contact_at(self._slip, point, self._friction)
-
     @property
     def _is_at_limit(self) -> bool:
-        return self.regime in _AT_LIMIT
+        return self.regime is Regime.EQUILIBRIUM or self.regime is Regime.DRIVEN_TO_STOP
 
     @property
     def _friction(self) -> float:
         """The moment that friction takes up, in units of r T."""
-        _, _, _, _, _, moment, _, _, (capacity, *_) = self._slip_and_probe[1]
-        return capacity if self._is_at_limit else moment  # type: ignore[no-any-return]
-
-    @property
-    def _is_vouched_for(self) -> bool:
-        """Whether the contact force is one that the model stands behind."""
-        return not self.is_tracked or bool(self.branch_consistent)
+        probe = self._slip_and_probe[1]
+        return probe[8][0] if self._is_at_limit else probe[5]  # type: ignore[no-any-return]
 
     @kept
-    def _angle_by_cable(self) -> ByCable | None:
-        """∂θ/∂T by cable, ahead, of a root; zeros where the angle does not follow."""
-        point = self._point
-        if self.regime is not Regime.EQUILIBRIUM or point is None:
-            return ByCable(0.0, 0.0)
-        if point.slope == 0.0:
+    def _contact(self) -> Contact | None:
+        if self.bend_angle is None:
             return None
-        return angle_by_tensions(self._slip, point, self.design.relative_lever)
+        return contact_at(self._slip_and_probe[0], self._point, self._friction)
+
+    @property
+    def _assured_contact(self) -> Contact | None:
+        """The contact if the model stands behind it."""
+        contact = self._contact
+        return None if contact and self.is_tracked and not contact.consistent else contact
+
+    @kept
+    def _gradients(self) -> tuple[TensionGradient | None, TensionGradient | None]:
+        """∂θ/∂T and ∂p/∂T, None where infinite; of a unit that is held it does not move."""
+        if self.bend_angle is None:
+            return None, None
+        slip, point, lever = self._slip_and_probe[0], self._point, self.design.relative_lever
+        angle, by_tension = (0.0, 0.0), STAYS
+        if self.regime is Regime.EQUILIBRIUM:
+            if point.slope == 0.0:
+                return None, None
+            angle = angle_by_tensions(slip, point, lever)
+            by_tension = of_sides(slip, angle, slip.side)
+        behind, ahead = normal_by_tensions(
+            slip,
+            point,
+            slip.law.normal_slopes(point.state, self._friction),
+            lever,
+            angle=angle,
+            at_limit=self._is_at_limit,
+        )
+        area = self.design.contact_area
+        return finite(by_tension), finite(of_sides(slip, (behind / area, ahead / area)))
 
 
 STAYS = TensionGradient(0.0, 0.0)
 """Of an angle that does not follow the tensions"""
 
-_AT_LIMIT = frozenset((Regime.EQUILIBRIUM, Regime.DRIVEN_TO_STOP))
-
-
-_REPORTED = (
-    *('regime', 'tension_l', 'tension_s', 'bend_angle', 'angle_assured', 'slip_margin'),
-    *('pressure', 'normal_force', 'root_count', 'iterations', 'stable', 'residual', 'forces'),
-    *('force_remainder', 'branch_consistent', 'bend_angle_gradient', 'pressure_gradient'),
-)
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Enum):
-        return value.value
-    return value._asdict() if hasattr(value, '_asdict') else value

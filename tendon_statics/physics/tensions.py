@@ -69,7 +69,7 @@ def taut_slip(
     excess = tension_excess(design, load, joint.size, tension_l, tension_s)
     if not excess > 0.0:
         _check_that_it_presses(design, tensions, load)
-    return Slip.of(joint, excess, tension_l, tension_s, side)
+    return Slip(joint, excess, tension_l, tension_s, side)
 
 
 def _check_that_it_presses(design: JointDesign, tensions: Tensions, load: Load) -> None:

@@ -101,10 +101,11 @@ class StickSlipTracker:
         """
         tensions = check_tensions(tension_l, tension_s)
         tension_l, tension_s = tensions
-        fields = (self._design, load)
         if tensions.slack_cable:
             self.doubt()
-            return Equilibrium(*fields, Regime.SLACK, *tensions, angle_assured=False)
+            return Equilibrium(
+                self._design, load, Regime.SLACK, *tensions, angle_assured=False
+            )
         slip = taut_slip(self._design, tensions, load)
         driving, probe = slip.driving(self._bend_angle)
         margin = driving.side * slip.share_of_limit(probe)
@@ -114,8 +115,10 @@ class StickSlipTracker:
             regime = self._move(step)
             driving, probe = slip.driving(self._bend_angle)
         self._before = step
-        where = self._bend_angle, None, None, self._assured, self._gradient
-        return Equilibrium.of(driving, probe, (*fields, regime, tension_l, tension_s, *where))
+        fields = (self._design, load, regime, tension_l, tension_s, self._bend_angle)
+        return Equilibrium.of(
+            driving, probe, (*fields, None, None, self._assured, self._gradient)
+        )
 
     def _move(self, step: _Step) -> Regime:
         """Let the unit slip on the way from the last tensions to these; return how it ends."""
@@ -180,7 +183,7 @@ class StickSlipTracker:
             share = index / STEPS
             dead = DeadLoad(*_on_the_way(old, new, share))
             pair = Tensions(*_on_the_way(before.tensions, step.tensions, share))
-            between.append(Slip.of(LoadedJoint.of(design, dead), sum(pair) - dead.size, *pair))
+            between.append(Slip(LoadedJoint.of(design, dead), sum(pair) - dead.size, *pair))
         return [*between, step.slip]
 
     def _grows(self, before: _Step, step: _Step) -> bool:
@@ -196,7 +199,7 @@ class StickSlipTracker:
             ahead = slip if side > 0.0 else slip.mirrored()
             for index in range(-4, 5):
                 point = ahead.at(0.25 * index * self._design.max_bend_angle)
-                held = point.capacity - ahead.load.share * point.by_share
+                held = point.capacity - ahead.share * point.by_share
                 if not pull >= held * (change_l + change_s):
                     return False
         return True

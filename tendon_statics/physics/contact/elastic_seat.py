@@ -69,7 +69,7 @@ class LoadedElasticSeatLaw(LoadedLaw):
     def __init__(
         self, law: ElasticSeatLaw, load: LoadShare, tilt: tuple[Any, Any], numbers: Numbers
     ) -> None:
-        self._law, self._share, self._numbers = law, load.share, numbers
+        self._law, self._share, self._numbers = law, load[0], numbers
         self._circle = law.circle.under(load, tilt, numbers)
 
     def at(self, cosine: Any, sine: Any) -> State:
@@ -137,7 +137,7 @@ class LoadedElasticSeatLaw(LoadedLaw):
         tilting = used * law.zone.axial_friction
         by_used = law.zone.axial_friction * share * sin_psi
         by_used = (by_used - 2.0 * law.coupling * used * normal) / divisor
-        return NormalSlopes(
+        return (
             normal,
             (cos_psi + tilting * sin_psi) / divisor
             - by_used * used * self.by_share(state) / capacity,
@@ -146,16 +146,11 @@ class LoadedElasticSeatLaw(LoadedLaw):
             by_used * law.friction / capacity,
         )
 
-    def contact(self, state: State, moment: Any) -> ContactShares:
+    def contact(self, state: State, moment: Any, normal: Any) -> ContactShares:
         zone = self._law.zone
-        used, _, axial = self._used(state, moment)
-        dragged = used * zone.transverse_friction * axial
+        used, _, _ = self._used(state, moment)
+        dragged = used * zone.transverse_friction * normal
         transverse = dragged - self._share * state[7]
-        pressure = (axial, transverse)
-        return ContactShares(
-            axial,
-            pressure,
-            (used * zone.axial_friction * transverse, -dragged),
-            pressure,
-            axial > 0.0,
-        )
+        pressure = (normal, transverse)
+        friction = (used * zone.axial_friction * transverse, -dragged)
+        return pressure, friction, pressure, normal > 0.0

@@ -14,7 +14,7 @@ from .law import (
     NormalSlopes,
     State,
 )
-from .numbers import Numbers, product_bounds, wave_bounds
+from .numbers import Numbers, scaled_bounds, wave_bounds
 
 
 class FrictionCircleLaw(ContactLaw):
@@ -49,7 +49,7 @@ class LoadedFrictionCircleLaw(LoadedLaw):
     def __init__(
         self, law: FrictionCircleLaw, load: LoadShare, tilt: tuple[Any, Any], numbers: Numbers
     ) -> None:
-        self._ratio, self._share, self._numbers = law.ratio, load.share, numbers
+        self._ratio, self._share, self._numbers = law.ratio, load[0], numbers
         self._square_root = numbers.square_root
         self._cosine, self._sine = tilt
 
@@ -71,14 +71,13 @@ class LoadedFrictionCircleLaw(LoadedLaw):
         if numbers.any(turns):
             side = numbers.choose(cos_psi + other_cos_psi < 0.0, -1.0, 1.0)
             turned = self.at(side * self._cosine, -side * self._sine)[4]
-            low = numbers.choose(turns, numbers.least(low, turned), low)
-            high = numbers.choose(turns, numbers.greatest(high, turned), high)
-        sines = wave_bounds(numbers, sin_psi, cos_psi, other_sin_psi, other_cos_psi, 1.0)
+            turned = numbers.choose(turns, turned, size)
+            low, high = numbers.least(low, turned), numbers.greatest(high, turned)
+        least, most = wave_bounds(numbers, sin_psi, cos_psi, other_sin_psi, other_cos_psi, 1.0)
         scale = self._ratio * self._share
-        least, greatest = product_bounds(
-            scale / (high + LEAST), scale / (low + LEAST), *sines
+        return scaled_bounds(
+            numbers, -most, -least, scale / (high + LEAST), scale / (low + LEAST)
         )
-        return -greatest, -least
 
     def by_share(self, state: State) -> Any:
         _, _, cos_psi, _, size = state
@@ -91,19 +90,18 @@ class LoadedFrictionCircleLaw(LoadedLaw):
     def normal_slopes(self, state: State, moment: Any) -> NormalSlopes:
         _, _, cos_psi, sin_psi, _ = state
         normal, share = self.normal(state, moment), self._share
-        return NormalSlopes(
+        return (
             normal, (cos_psi + share) / normal, -share * sin_psi / normal, -moment / normal
         )
 
-    def contact(self, state: State, moment: Any) -> ContactShares:
+    def contact(self, state: State, moment: Any, normal: Any) -> ContactShares:
         """The contact lies ahead of the reaction by the angle of friction that is used."""
         _, _, cos_psi, sin_psi, size = state
         along, across = 1.0 + self._share * cos_psi, self._share * sin_psi
-        normal = self.normal(state, moment)
         # Direction of the contact, along the axis and across it: that of the reaction, turned.
         to_axis = (normal * along + moment * across) / (size * size)
         to_side = (moment * along - normal * across) / (size * size)
         pressure = (normal * to_axis, normal * to_side)
-        return ContactShares(
-            normal, pressure, (moment * to_side, -moment * to_axis), pressure, size > moment
+        return (
+            pressure, (moment * to_side, -moment * to_axis), pressure, size > moment
         )

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from typing import Any, NamedTuple
+from typing import Any
 
 from .numbers import Numbers
 
@@ -31,42 +31,19 @@ State = tuple[Any, ...]
 """A law at one angle: κ, ∂κ/∂ψ, and what else the law wants to know of it again"""
 
 
-class LoadShare(NamedTuple):
-    """The size of the dead load beside the cable tensions; floats or arrays."""
-
-    share: Any
-    """w = |P| / T"""
-    excess: Any
-    """1 − w, without loss of digits"""
-    product: Any
-    """1 − w², likewise"""
+LoadShare = tuple[Any, Any, Any]
+"""The dead load beside the cable tensions: w, and 1 − w and 1 − w² without loss of digits"""
 
 
-class NormalSlopes(NamedTuple):
-    """n and its derivatives."""
+NormalSlopes = tuple[Any, Any, Any, Any]
+"""n, ∂n/∂w, ∂n/∂ψ and ∂n/∂f"""
 
-    normal: Any
-    by_share: Any
-    """∂n/∂w"""
-    by_tilt: Any
-    """∂n/∂ψ"""
-    by_moment: Any
-    """∂n/∂f"""
+Pair = tuple[Any, Any]
+"""A force along the unit's axis and across it, to the side of slip, in shares of T"""
 
-
-class ContactShares(NamedTuple):
-    """Forces on the unit in shares of T, along its axis and across it, to the side of slip."""
-
-    normal: Any
-    """n"""
-    pressure: tuple[Any, Any]
-    """Resultant of the contact pressure"""
-    friction: tuple[Any, Any]
-    """Resultant of the friction"""
-    balanced: tuple[Any, Any]
-    """What Eqs. (1) and (2) have in place of the pressure"""
-    consistent: Any
-    """Whether the forces are those that Eqs. (1) and (2) ask for"""
+ContactShares = tuple[Pair, Pair, Pair, Any]
+"""Resultants of pressure and friction on the unit, what Eqs. (1) and (2) have in place of the
+pressure, and whether the forces are those that they ask for"""
 
 
 class LoadedLaw(ABC):
@@ -98,8 +75,8 @@ class LoadedLaw(ABC):
         """Return that and its derivatives."""
 
     @abstractmethod
-    def contact(self, state: State, moment: Any) -> ContactShares:
-        """Return the forces on the unit while friction takes up f."""
+    def contact(self, state: State, moment: Any, normal: Any) -> ContactShares:
+        """Return the forces on the unit while friction takes up f, with n for it."""
 
 
 class ContactLaw(ABC):

@@ -14,7 +14,7 @@ from .law import (
     NormalSlopes,
     State,
 )
-from .numbers import Numbers, product_bounds, wave_bounds
+from .numbers import Numbers, scaled_bounds, wave_bounds
 
 
 class MergedLaw(ContactLaw):
@@ -101,11 +101,10 @@ class LoadedMergedLaw(LoadedLaw):
             # sin φ comes to 1 or −1 in between.
             side = numbers.choose(sin_phi + other_sin_phi < 0.0, -1.0, 1.0)
             capacity, _, _, _, steepness = self.at(side * self._along, side * self._across)
-            gain = share * capacity * steepness
-            low = numbers.choose(turns, numbers.least(low, gain), low)
-            high = numbers.choose(turns, numbers.greatest(high, gain), high)
-        cosines = wave_bounds(numbers, cos_phi, sin_phi, other_cos_phi, other_sin_phi, 1.0)
-        return product_bounds(low, high, *cosines)
+            gain = numbers.choose(turns, share * capacity * steepness, other_gain)
+            low, high = numbers.least(low, gain), numbers.greatest(high, gain)
+        least, most = wave_bounds(numbers, cos_phi, sin_phi, other_cos_phi, other_sin_phi, 1.0)
+        return scaled_bounds(numbers, least, most, low, high)
 
     def by_share(self, state: State) -> Any:
         capacity, _, sin_phi, _, steepness = state
@@ -127,22 +126,20 @@ class LoadedMergedLaw(LoadedLaw):
         share = self._share
         normal, lift = self._lifted(sin_phi, moment)
         divisor = lift + LEAST
-        return NormalSlopes(
+        return (
             normal,
             (moment * sin_phi - share) / divisor,
             share * moment * cos_phi / divisor,
             (share * sin_phi - moment) / divisor,
         )
 
-    def contact(self, state: State, moment: Any) -> ContactShares:
+    def contact(self, state: State, moment: Any, normal: Any) -> ContactShares:
         """Both forces act at β from the unit's axis; Eqs. (1) and (2) have N along it.
 
         They ask for the root taken, N < T, while F sin φ > |P|.
         """
         sin_phi, sine, cosine = state[2], self._law.sine, self._law.cosine
-        normal, _ = self._lifted(sin_phi, moment)
-        return ContactShares(
-            normal,
+        return (
             (normal * cosine, normal * sine),
             (moment * sine, -moment * cosine),
             (normal, 0.0 * normal),

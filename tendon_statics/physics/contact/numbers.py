@@ -62,10 +62,13 @@ def wave_bounds(
     return low, high
 
 
-def product_bounds(low: Any, high: Any, other_low: Any, other_high: Any) -> tuple[Any, Any]:
-    """Return bounds of the product of two quantities, from bounds of each."""
-    centre, radius = 0.5 * (low + high), 0.5 * (high - low)
-    other_centre, other_radius = 0.5 * (other_low + other_high), 0.5 * (other_high - other_low)
-    middle = centre * other_centre
-    reach = abs(centre) * other_radius + radius * (abs(other_centre) + other_radius)
-    return middle - reach, middle + reach
+def scaled_bounds(numbers: Numbers, low: Any, high: Any, least: Any, most: Any) -> tuple[Any, Any]:
+    """Return bounds of a quantity between `low` and `high` times a factor that is not negative.
+
+    Parameters
+    ----------
+    least, most
+        Bounds of the factor.
+    """
+    choose = numbers.choose
+    return low * choose(low < 0.0, most, least), high * choose(high < 0.0, least, most)
