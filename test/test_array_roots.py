@@ -61,11 +61,10 @@ def test_a_root_is_proven_by_a_bracket_of_the_bisections_width():
     tensions = np.ones(200), np.linspace(1.965, 2.045, 200)
     rows = _Rows(_facing_slips(PRELIMINARY, UPRIGHT, *tensions, ()))
     found = array_brackets(rows, 200, 0.0, PRELIMINARY.max_bend_angle)
-    every = np.arange(200)
-    roots = array_refine(rows, every, found.low, found.high)
+    roots = array_refine(rows, found.low, found.high)
     assert not roots.unresolved.any()
     sides = [
-        rows.probe(every, roots.places + step)[1]
+        rows.probe(slice(None), roots.places + step)[1]
         for step in (-0.5 * ANGLE_TOLERANCE, 0.5 * ANGLE_TOLERANCE)
     ]
     assert (sides[0] * sides[1] < 0.0).all()
@@ -74,6 +73,6 @@ def test_a_root_is_proven_by_a_bracket_of_the_bisections_width():
 def test_what_is_no_root_is_not_taken_for_one():
     """A bracket over which g does not change sign ends as unresolved."""
     rows = _Rows(_facing_slips(PRELIMINARY, UPRIGHT, np.ones(2), np.array([1.5, 2.5]), ()))
-    ends = (rows.probe(slice(None), end) for end in (0.0, PRELIMINARY.max_bend_angle))
-    roots = array_refine(rows, np.arange(2), *ends)
+    ends = (rows.probe(slice(None), end)[:3] for end in (0.0, PRELIMINARY.max_bend_angle))
+    roots = array_refine(rows, *ends)
     assert roots.unresolved.all()

@@ -19,8 +19,8 @@ CUTS = 12
 STEPS = 20
 """Steps towards a root at the most; three or four are enough as a rule"""
 
-STILL = 1e-12
-"""Step in rad after which the next is not worth taking"""
+STILL = 1e-6
+"""Step in rad after which the next is not worth taking: each is some square of the one before"""
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -66,18 +66,18 @@ def array_brackets(function: ArrayFunction, count: int, low: float, high: float)
     for cut in range(CUTS + 1):
         least, greatest = function.slope_bounds(rows, left, right)
         settled = (least > 0.0) | (greatest < 0.0)
-        crossing = settled & _change_sign(left[1], right[1])
-        rows = np.arange(count)[rows]
-        at = rows[crossing]
+        (crossing,) = np.nonzero(settled & _change_sign(left[1], right[1]))
+        (still,) = np.nonzero(~settled & _may_vanish(left, right, least, greatest))
+        at = crossing if cut == 0 else rows[crossing]
         np.add.at(roots, at, 1)
         np.minimum.at(lows[0], at, left[0, crossing])
         nearest = lows[0, at] == left[0, crossing]
-        for ends, end in ((lows, left), (highs, right)):
-            ends[:, at[nearest]] = end[:3, crossing][:, nearest]
-        still = ~settled & _may_vanish(left, right, least, greatest)
-        rows, left, right = rows[still], left[:, still], right[:, still]
+        at, crossing = at[nearest], crossing[nearest]
+        lows[:, at], highs[:, at] = left[:3, crossing], right[:3, crossing]
+        rows = still if cut == 0 else rows[still]
         if not len(rows) or cut == CUTS:
             break
+        left, right = left[:, still], right[:, still]
         middle = function.probe(rows, 0.5 * (left[0] + right[0]))
         rows = np.concatenate([rows, rows])
         left = np.concatenate([left, middle], axis=1)
@@ -94,13 +94,14 @@ class Roots(NamedTuple):
     unresolved: Flags
 
 
-def array_refine(function: ArrayFunction, rows: Indices, low: Floats, high: Floats) -> Roots:
+def array_refine(function: ArrayFunction, low: Floats, high: Floats) -> Roots:
     """Find the root in the bracket of each row, and prove it as `roots.refine` does.
 
-    Newton's method, kept within a shrinking bracket, comes close. Then the function must change
-    sign over a bracket as narrow as that one's last, and the root is where its chord is zero.
+    The same steps come close. Then the function must change sign over a bracket as narrow as that
+    one's last, and the root is where its chord is zero.
     """
-    near, steps = _newton(function, rows, low, high)
+    rows = slice(None)
+    near, steps = _approach(function, low, high)
     before = np.maximum(near - 0.5 * ANGLE_TOLERANCE, low[0])
     after = np.minimum(near + 0.5 * ANGLE_TOLERANCE, high[0])
     at_before, at_after = function.probe(rows, before)[1], function.probe(rows, after)[1]
@@ -109,27 +110,28 @@ def array_refine(function: ArrayFunction, rows: Indices, low: Floats, high: Floa
     return Roots(np.clip(root, before, after), steps, ~proven)
 
 
-def _newton(
-    function: ArrayFunction, rows: Indices, low: Floats, high: Floats
+def _approach(
+    function: ArrayFunction, low: Floats, high: Floats
 ) -> tuple[Floats, NDArray[np.int64]]:
     """Return a place near the root in each bracket, and the steps taken."""
-    rising = low[1] < high[1]
-    place = cubic_zero(low, high)
-    lowest, highest = low[0], high[0]
-    steps = np.zeros(len(place), np.int64)
+    rows: Any = slice(None)
+    ahead = cubic_zero(low, high)
+    near, steps = ahead.copy(), np.zeros(len(ahead), np.int64)
     for _ in range(STEPS):
-        inside = (place >= lowest) & (place <= highest)
-        place = np.where(inside, place, 0.5 * (lowest + highest))
-        _, value, slope = function.probe(rows, place)[:3]
-        steps += 1
-        below = (value < 0.0) == rising
-        lowest, highest = np.where(below, place, lowest), np.where(below, highest, place)
-        ahead = place - value / slope
-        moving = ~(np.abs(ahead - place) <= STILL)
-        place = ahead
-        if not moving.any():
+        inside = (ahead >= low[0]) & (ahead <= high[0])
+        place = np.where(inside, ahead, 0.5 * (low[0] + high[0]))
+        probe = function.probe(rows, place)[:3]
+        below = (probe[1] < 0.0) == (low[1] < high[1])
+        low, high = np.where(below, probe, low), np.where(below, high, probe)
+        ahead = cubic_zero(low, high)
+        near[rows] = ahead
+        steps[rows] += 1
+        (moving,) = np.nonzero(~(np.abs(ahead - place) <= STILL))
+        if not len(moving):
             break
-    return place, steps
+        rows = moving if isinstance(rows, slice) else rows[moving]
+        low, high, ahead = low[:, moving], high[:, moving], ahead[moving]
+    return near, steps
 
 
 def _change_sign(before: Floats, after: Floats) -> Flags:

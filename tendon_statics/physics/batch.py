@@ -114,14 +114,14 @@ class EquilibriumBatch:
     @cached_property
     def _contact(self) -> Contact:
         shape = self.bend_angle.shape
-        numbers: Any = np.empty((6, *shape))
-        consistent: Any = np.empty(shape, np.bool_)
+        numbers: Any = np.full((6, *shape), np.nan)
+        consistent: Any = np.zeros(shape, np.bool_)
         rows, flags = numbers.reshape(6, -1), consistent.reshape(-1)
         with np.errstate(all='ignore'):
-            for part, slip, point in self._points():
+            for at, slip, point in self._points():
                 contact = contact_at(slip, point, point.capacity)
-                rows[:, part] = (*contact.forces, *contact.remainder)
-                flags[part] = contact.consistent
+                rows[:, at] = (*contact.forces, *contact.remainder)
+                flags[at] = contact.consistent
         return Contact(
             self.normal_force,
             ContactForces(*numbers[:4]),
@@ -131,23 +131,27 @@ class EquilibriumBatch:
 
     @cached_property
     def _gradients(self) -> tuple[TensionGradient, TensionGradient]:
-        numbers: Any = np.empty((4, *self.bend_angle.shape))
+        numbers: Any = np.full((4, *self.bend_angle.shape), np.nan)
         rows = numbers.reshape(4, -1)
         regimes = self.regime.reshape(-1)
         with np.errstate(all='ignore'):
-            for part, slip, point in self._points():
-                at_stop = regimes[part] == REGIME_CODES[Regime.DRIVEN_TO_STOP]
-                rows[:, part] = _gradients_of(self.design, slip, point, at_stop)
+            for at, slip, point in self._points():
+                at_stop = regimes[at] == REGIME_CODES[Regime.DRIVEN_TO_STOP]
+                rows[:, at] = _gradients_of(self.design, slip, point, at_stop)
         return TensionGradient(*numbers[:2]), TensionGradient(*numbers[2:])
 
-    def _points(self) -> Iterator[tuple[slice, Slip, SlipPoint]]:
-        """Walk through the results: yield a slice, and the slip functions at their angles."""
-        for part, (tension_l, tension_s, angle, *dead) in _chunks(
+    def _points(self) -> Iterator[tuple[NDArray[np.intp], Slip, SlipPoint]]:
+        """Walk through the pairs with an angle: yield where they are, and the slip functions."""
+        for part, chunk in _chunks(
             *(self.tension_l, self.tension_s, self.bend_angle),
             *_dead_arrays(self.design, self.load),
         ):
-            slip = _facing_slips(self.design, self.load, tension_l, tension_s, dead)
-            yield part, slip, slip.at(np.abs(angle))
+            (known,) = np.nonzero(~np.isnan(chunk[2]))
+            tension_l, tension_s, angle, *dead = (values[known] for values in chunk)
+            at = known + part.start
+            load = self.load if isinstance(self.load, Load) else self.load.reshape(-1)[at]
+            slip = _facing_slips(self.design, load, tension_l, tension_s, dead)
+            yield at, slip, slip.at(np.abs(angle))
 
 
 def solve_batch(
@@ -302,8 +306,12 @@ class _Rows:
     def __init__(self, slip: Slip) -> None:
         self.slip = slip
 
+    def of(self, rows: Any) -> Slip:
+        """Return the slip functions of some of the pairs."""
+        return self.slip if isinstance(rows, slice) else self.slip.part(rows)
+
     def probe(self, rows: Any, places: Floats | float) -> Floats:
-        slip = self.slip.part(rows)
+        slip = self.of(rows)
         *known, state = slip.probe(places)
         lines = np.empty((len(known) + len(state), len(slip.total)))
         for line, values in zip(lines, (*known, *state), strict=True):
@@ -311,7 +319,7 @@ class _Rows:
         return lines
 
     def slope_bounds(self, rows: Any, one: Floats, other: Floats) -> tuple[Floats, Floats]:
-        return self.slip.part(rows).slope_bounds(*((*ends[:8], tuple(ends[8:])) for ends in (one, other)))
+        return self.of(rows).slope_bounds(*((*ends[:8], tuple(ends[8:])) for ends in (one, other)))
 
 
 def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
@@ -347,8 +355,9 @@ def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
 
     (rooted,) = np.nonzero(counts)
     chunk.regime[taut[rooted]] = REGIME_CODES[Regime.EQUILIBRIUM]
-    roots = array_refine(rows, rooted, found.low[:, rooted], found.high[:, rooted])
-    point = _fill(chunk, taut[rooted], rows.slip.part(rooted), roots.places)
+    slip = rows.slip.part(rooted)
+    roots = array_refine(_Rows(slip), found.low[:, rooted], found.high[:, rooted])
+    point = _fill(chunk, taut[rooted], slip, roots.places)
     chunk.stable[taut[rooted]] = point.slope < 0.0
     chunk.iterations[taut[rooted]] = roots.steps
 

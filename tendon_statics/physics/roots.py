@@ -21,8 +21,9 @@ MOST_INTERVALS = 4000
 """Intervals that are looked at before the rest is taken as too flat to resolve; a few suffice for
 any function but one made up to be flat"""
 
-MOST_HELPED_STEPS = 12
-"""Steps after which a bracket is halved only; four or five are enough as a rule"""
+HALVING_STEPS = frozenset((*range(5, 20, 2), *range(20, 100)))
+"""Steps after which the bracket is halved, whatever the function may promise; four or five steps
+are enough as a rule"""
 
 OVERSHOOT = 0.45 * ANGLE_TOLERANCE
 """How far beyond the root the last step is aimed, so that rounding does not put it before"""
@@ -105,7 +106,7 @@ def refine(function: BoundedFunction, bracket: Bracket) -> tuple[Probe, int]:
             low, beyond = probe, OVERSHOOT
         else:
             high, beyond = probe, -OVERSHOOT
-        if steps >= MOST_HELPED_STEPS:
+        if steps in HALVING_STEPS:
             ahead = math.nan
         elif slope and -OVERSHOOT < (step := value / slope) < OVERSHOOT:
             ahead += beyond - step

@@ -275,8 +275,7 @@ class Slip:
         the margin, so what exceeds 1 by that alone is taken for 1.
         """
         slip, probe = self.driving(angle)
-        margin = slip.share_of_limit(probe)
-        return margin if slip is self else -margin
+        return self.side * slip.margin_at(probe)
 
     def driving(self, angle: float) -> tuple[Slip, Probe]:
         """Return the slip function towards the side to which M drives at an angle ahead in rad.
@@ -289,8 +288,12 @@ class Slip:
         mirrored = self.mirrored()
         return mirrored, mirrored.probe(-angle)
 
-    @staticmethod
-    def share_of_limit(probe: Probe) -> float:
-        """`margin` where it was probed, for M towards the side of slip."""
+    def margin_at(self, probe: Probe) -> float:
+        """M / K where it was probed, for M towards the side of slip; positive towards cable s."""
         margin: float = probe[5] / probe[8][0]
-        return 1.0 if 1.0 < margin <= 1.0 + ROUNDING else margin
+        return self.side * (1.0 if 1.0 < margin <= 1.0 + ROUNDING else margin)
+
+    def residual_at(self, probe: Probe) -> float:
+        """(M − K) / (μ r) in N where it was probed; with the paper's law N_m − N_f, Eq. (4)."""
+        residual: float = probe[1] * self.total / self.joint.law.friction
+        return residual

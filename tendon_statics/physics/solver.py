@@ -81,5 +81,4 @@ def residual(
         As `solve` does, and for a slack cable.
     """
     slip = taut_slip(design, check_tensions(tension_l, tension_s), load)
-    excess: float = slip.total * slip.value(bend_angle)
-    return excess / design.friction_coefficient
+    return slip.residual_at(slip.probe(bend_angle))

@@ -108,7 +108,7 @@ class StickSlipTracker:
             )
         slip = taut_slip(self._design, tensions, load)
         driving, probe = slip.driving(self._bend_angle)
-        margin = driving.side * slip.share_of_limit(probe)
+        margin = driving.margin_at(probe)
         step = _Step(tensions, load, slip, margin)
         regime = Regime.HELD
         if not -1.0 <= margin <= 1.0:

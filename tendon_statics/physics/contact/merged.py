@@ -54,7 +54,7 @@ class LoadedMergedLaw(LoadedLaw):
 
     __slots__ = (
         *('_across', '_along', '_excess', '_friction', '_half', '_law', '_less'),
-        *('_numbers', '_product', '_share', '_square_root', '_choose', '_steep'),
+        *('_may_cancel', '_numbers', '_product', '_share', '_square_root'),
     )
 
     def __init__(
@@ -62,9 +62,10 @@ class LoadedMergedLaw(LoadedLaw):
     ) -> None:
         self._law, self._numbers = law, numbers
         self._share, self._excess, self._product = load
-        self._friction, self._steep = law.friction, law.steep
+        self._friction = law.friction
+        self._may_cancel = numbers.any(law.friction * load[0] > 0.99)
         self._less, self._half = 1.0 - law.friction, 0.5 * law.friction
-        self._square_root, self._choose = numbers.square_root, numbers.choose
+        self._square_root = numbers.square_root
         # sin φ and cos φ at zero bend
         cosine, sine = tilt
         self._along = law.sine * cosine + law.cosine * sine
@@ -82,9 +83,11 @@ class LoadedMergedLaw(LoadedLaw):
         friction = self._friction
         slide = friction * cos_phi
         root = self._square_root(lift * lift + product * slide * slide)
-        # B ≤ 0 needs μ > 1; there the other form of the same root is the one that does not cancel.
         larger = abs(b) + root
-        capacity = friction * self._choose(b > 0.0, product / larger, self._steep * larger)
+        normal = product / larger
+        if self._may_cancel:  # where B < 0, and the other form of the same root does not
+            normal = self._numbers.choose(b > 0.0, normal, self._law.steep * larger)
+        capacity = friction * normal
         steepness = friction / (root + LEAST)
         return capacity, share * capacity * cos_phi * steepness, sin_phi, cos_phi, steepness
 
