@@ -3,25 +3,39 @@
 from __future__ import annotations
 
 from enum import Enum
-from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .design import JointDesign
 from .design_gradients import Derivatives, SlipAnswer, answer_derivatives
 from .forces import Contact, ContactForces, ForceRemainder, contact_at
 from .gradients import (
-    ByCable,
     TensionGradient,
     angle_by_tensions,
     finite,
     normal_by_tensions,
     of_sides,
-    root_gradient,
     stddev_of,
 )
 from .load import Load
-from .slip import Slip, SlipPoint
+from .slip import Probe, Slip, SlipPoint
 from .tensions import Tensions, taut_slip
+
+if TYPE_CHECKING:
+    from functools import cached_property as kept
+else:
+
+    class kept:  # noqa: N801
+        """`functools.cached_property` without the lock that it takes before Python 3.12."""
+
+        def __init__(self, function):
+            self.function, self.__doc__ = function, function.__doc__
+
+        def __set_name__(self, owner, name):
+            self.name = name
+
+        def __get__(self, instance, owner=None):
+            value = instance.__dict__[self.name] = self.function(instance)
+            return value
 
 
 class Regime(str, Enum):
@@ -91,8 +105,8 @@ class Equilibrium(_Fields):
         """M / K at the angle: ±1 at the limit of friction, beyond that only against the stop."""
         if self.bend_angle is None:
             return None
-        slip = self._slip
-        return slip.side * slip.margin(slip.side * self.bend_angle)
+        slip, probe = self._slip_and_probe
+        return slip.margin_at(probe)
 
     @property
     def residual(self) -> float | None:
@@ -100,10 +114,10 @@ class Equilibrium(_Fields):
 
         With the paper's law N_m − N_f, Eq. (4).
         """
-        point = self._point
-        if point is None:
+        if self.bend_angle is None:
             return None
-        return point.excess * self._slip.total / self.design.friction_coefficient  # type: ignore[no-any-return]
+        slip, probe = self._slip_and_probe
+        return slip.residual_at(probe)
 
     @property
     def stable(self) -> bool | None:
@@ -111,17 +125,18 @@ class Equilibrium(_Fields):
 
         None where friction is not at its limit.
         """
-        if self.regime is Regime.DRIVEN_TO_STOP:
-            return True
-        if self.regime is not Regime.EQUILIBRIUM or self._point is None:
-            return None
-        return self._point.slope < 0.0  # type: ignore[no-any-return]
+        if self.regime is Regime.EQUILIBRIUM:
+            return self._slip_and_probe[1][2] < 0.0  # type: ignore[no-any-return]
+        return True if self.regime is Regime.DRIVEN_TO_STOP else None
 
     @property
     def normal_force(self) -> float | None:
         """N in N; None for a tracked unit where not `branch_consistent`."""
-        contact = self._contact
-        return contact.normal_force if contact and self._is_vouched_for else None
+        if self.is_tracked or self.bend_angle is None:
+            contact = self._contact
+            return contact.normal_force if contact is not None and contact.consistent else None
+        slip, probe = self._slip_and_probe
+        return slip.total * slip.law.normal(probe[8], self._friction)  # type: ignore[no-any-return]
 
     @property
     def pressure(self) -> float | None:
@@ -132,14 +147,14 @@ class Equilibrium(_Fields):
     @property
     def forces(self) -> ContactForces | None:
         """The forces on the joint surface."""
-        contact = self._contact
-        return contact.forces if contact and self._is_vouched_for else None
+        contact = self._assured_contact
+        return None if contact is None else contact.forces
 
     @property
     def force_remainder(self) -> ForceRemainder | None:
         """What Eqs. (1) and (2) leave over, one by one."""
-        contact = self._contact
-        return contact.remainder if contact and self._is_vouched_for else None
+        contact = self._assured_contact
+        return None if contact is None else contact.remainder
 
     @property
     def branch_consistent(self) -> bool | None:
@@ -158,29 +173,12 @@ class Equilibrium(_Fields):
         """
         if self.is_tracked:
             return self.slip_gradient if self.angle_assured else None
-        if self._point is None:
-            return None
-        if self.regime is Regime.DRIVEN_TO_STOP:
-            return TensionGradient(0.0, 0.0)
-        return root_gradient(self._slip, self._point, self.design.relative_lever)
+        return self._gradients[0]
 
     @property
     def pressure_gradient(self) -> TensionGradient | None:
         """∂p/∂T in Pa/N; None also where it is infinite."""
-        point, by_cable = self._point, self._angle_by_cable
-        if point is None or by_cable is None or not self._is_vouched_for:
-            return None
-        slip = self._slip
-        behind, ahead = normal_by_tensions(
-            slip,
-            point,
-            slip.law.normal_slopes(slip.load, point.cosine, point.sine, self._friction),
-            self.design.relative_lever,
-            angle=by_cable,
-            at_limit=self._is_at_limit,
-        )
-        area = self.design.contact_area
-        return finite(of_sides(slip.side, ByCable(behind / area, ahead / area)))
+        return None if self._assured_contact is None else self._gradients[1]
 
     @property
     def bend_angle_derivatives(self) -> Derivatives | None:
@@ -213,62 +211,104 @@ class Equilibrium(_Fields):
 
     def as_dict(self) -> dict[str, Any]:
         """Return all but design and load by name, ready for JSON: nested as dicts."""
-        return {name: _plain(getattr(self, name)) for name in _REPORTED}
+        # Its own fields are unpacked rather than asked for one by one: that saves a tenth.
+        design, _, regime, tension_l, tension_s, angle, root_count, iterations, assured, _ = self
+        contact, consistent = self._assured_contact, self.branch_consistent
+        by_tension, pressure_by_tension = self.bend_angle_gradient, self.pressure_gradient
+        return {
+            'regime': regime.value,
+            'tension_l': tension_l,
+            'tension_s': tension_s,
+            'bend_angle': angle,
+            'angle_assured': assured,
+            'slip_margin': self.slip_margin,
+            'pressure': contact and contact.normal_force / design.contact_area,
+            'normal_force': contact and contact.normal_force,
+            'root_count': root_count,
+            'iterations': iterations,
+            'stable': self.stable,
+            'residual': self.residual,
+            'forces': contact and contact.forces.as_dict(),
+            'force_remainder': contact and contact.remainder.as_dict(),
+            'branch_consistent': consistent,
+            'bend_angle_gradient': by_tension and by_tension.as_dict(),
+            'pressure_gradient': pressure_by_tension and pressure_by_tension.as_dict(),
+        }
 
     # What it is worked out from
 
     @classmethod
-    def of(cls, slip: Slip, *fields: Any, **more: Any) -> Equilibrium:
-        """Make one whose slip function, towards the side of its moment, is already there."""
-        made = cls(*fields, **more)
-        made.__dict__['_slip'] = slip
+    def of(cls, slip: Slip, probe: Probe, fields: tuple[Any, ...]) -> Equilibrium:
+        """Make one whose slip function is already there, probed at the angle.
+
+        Parameters
+        ----------
+        slip : Slip
+            Towards the side to which the moment drives the unit.
+        fields : tuple
+            All of them.
+        """
+        made = cls._make(fields)
+        made.__dict__['_slip_and_probe'] = slip, probe
         return made
 
-    @cached_property
-    def _slip(self) -> Slip:
-        """The slip function towards the side to which the moment drives the unit."""
+    @kept
+    def _slip_and_probe(self) -> tuple[Slip, Probe]:
+        """The slip function towards the side to which the moment drives, probed at the angle."""
         tensions = Tensions(self.tension_l, self.tension_s)
         slip = taut_slip(self.design, tensions, self.load)
-        return slip if self.bend_angle is None else slip.driving(self.bend_angle)
+        assert self.bend_angle is not None
+        return slip.driving(self.bend_angle)
 
-    @cached_property
-    def _point(self) -> SlipPoint | None:
-        if self.bend_angle is None:
-            return None
-        slip = self._slip
-        return slip.at(slip.side * self.bend_angle)
-
-    @cached_property
-    def _contact(self) -> Contact | None:
-        if self._point is None:
-            return None
-        return contact_at(self._slip, self._point, self._friction)
+    @kept
+    def _point(self) -> SlipPoint:
+        slip, probe = self._slip_and_probe
+        return slip.point(probe)
 
     @property
     def _is_at_limit(self) -> bool:
-        return self.regime in (Regime.EQUILIBRIUM, Regime.DRIVEN_TO_STOP)
+        return self.regime is Regime.EQUILIBRIUM or self.regime is Regime.DRIVEN_TO_STOP
 
     @property
     def _friction(self) -> float:
         """The moment that friction takes up, in units of r T."""
-        point = self._point
-        assert point is not None
-        return point.capacity if self._is_at_limit else point.moment  # type: ignore[no-any-return]
+        probe = self._slip_and_probe[1]
+        return probe[8][0] if self._is_at_limit else probe[5]  # type: ignore[no-any-return]
+
+    @kept
+    def _contact(self) -> Contact | None:
+        if self.bend_angle is None:
+            return None
+        return contact_at(self._slip_and_probe[0], self._point, self._friction)
 
     @property
-    def _is_vouched_for(self) -> bool:
-        """Whether the contact force is one that the model stands behind."""
-        return not self.is_tracked or bool(self.branch_consistent)
+    def _assured_contact(self) -> Contact | None:
+        """The contact if the model stands behind it."""
+        contact = self._contact
+        return None if contact and self.is_tracked and not contact.consistent else contact
 
-    @cached_property
-    def _angle_by_cable(self) -> ByCable | None:
-        """∂θ/∂T by cable, ahead, of a root; zeros where the angle does not follow."""
-        point = self._point
-        if self.regime is not Regime.EQUILIBRIUM or point is None:
-            return ByCable(0.0, 0.0)
-        if point.slope == 0.0:
-            return None
-        return angle_by_tensions(self._slip, point, self.design.relative_lever)
+    @kept
+    def _gradients(self) -> tuple[TensionGradient | None, TensionGradient | None]:
+        """∂θ/∂T and ∂p/∂T, None where infinite; of a unit that is held it does not move."""
+        if self.bend_angle is None:
+            return None, None
+        slip, point, lever = self._slip_and_probe[0], self._point, self.design.relative_lever
+        angle, by_tension = (0.0, 0.0), STAYS
+        if self.regime is Regime.EQUILIBRIUM:
+            if point.slope == 0.0:
+                return None, None
+            angle = angle_by_tensions(slip, point, lever)
+            by_tension = of_sides(slip, angle, slip.side)
+        behind, ahead = normal_by_tensions(
+            slip,
+            point,
+            slip.law.normal_slopes(point.state, self._friction),
+            lever,
+            angle=angle,
+            at_limit=self._is_at_limit,
+        )
+        area = self.design.contact_area
+        return finite(by_tension), finite(of_sides(slip, (behind / area, ahead / area)))
 
     def _derivatives(self) -> tuple[Derivatives, Derivatives] | None:
         """By tilt and design. A tracked unit has been brought here by tensions of the past."""
@@ -290,14 +330,5 @@ class Equilibrium(_Fields):
         )
 
 
-_REPORTED = (
-    *('regime', 'tension_l', 'tension_s', 'bend_angle', 'angle_assured', 'slip_margin'),
-    *('pressure', 'normal_force', 'root_count', 'iterations', 'stable', 'residual', 'forces'),
-    *('force_remainder', 'branch_consistent', 'bend_angle_gradient', 'pressure_gradient'),
-)
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Enum):
-        return value.value
-    return value._asdict() if hasattr(value, '_asdict') else value
+STAYS = TensionGradient(0.0, 0.0)
+"""Of an angle that does not follow the tensions"""
