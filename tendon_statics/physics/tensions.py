@@ -49,9 +49,7 @@ def check_tensions(tension_l: object, tension_s: object) -> Tensions:
     return Tensions(tension_l, tension_s)
 
 
-def taut_slip(
-    design: JointDesign, tensions: Tensions, load: Load, side: float = 1.0
-) -> Slip:
+def taut_slip(design: JointDesign, tensions: Tensions, load: Load, side: float = 1.0) -> Slip:
     """Return the slip function of two taut cables towards cable s, or towards l for a side of −1.
 
     Raises

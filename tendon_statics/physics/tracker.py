@@ -103,9 +103,7 @@ class StickSlipTracker:
         tension_l, tension_s = tensions
         if tensions.slack_cable:
             self.doubt()
-            return Equilibrium(
-                self._design, load, Regime.SLACK, *tensions, angle_assured=False
-            )
+            return Equilibrium(self._design, load, Regime.SLACK, *tensions, angle_assured=False)
         slip = taut_slip(self._design, tensions, load)
         driving, probe = slip.driving(self._bend_angle)
         margin = driving.margin_at(probe)
@@ -116,9 +114,7 @@ class StickSlipTracker:
             driving, probe = slip.driving(self._bend_angle)
         self._before = step
         fields = (self._design, load, regime, tension_l, tension_s, self._bend_angle)
-        return Equilibrium.of(
-            driving, probe, (*fields, None, None, self._assured, self._gradient)
-        )
+        return Equilibrium.of(driving, probe, (*fields, None, None, self._assured, self._gradient))
 
     def _move(self, step: _Step) -> Regime:
         """Let the unit slip on the way from the last tensions to these; return how it ends."""
@@ -161,9 +157,7 @@ class StickSlipTracker:
             return self._come_to_stop(slip.side)
         landing, _ = refine(slip, found[0])
         self._bend_angle = slip.side * landing[0]
-        self._gradient = root_gradient(
-            slip, slip.point(landing), self._design.relative_lever
-        )
+        self._gradient = root_gradient(slip, slip.point(landing), self._design.relative_lever)
         return Regime.SLIPPING
 
     def _way(self, step: _Step) -> list[Slip]:

@@ -59,7 +59,9 @@ class Yardstick:
         self._library.design_size.restype = ctypes.c_size_t
         self._library.solve_each.restype = ctypes.c_double
         self._design = ctypes.create_string_buffer(self._library.design_size())
-        self._library.prepare(self._design, *(ctypes.c_double(getattr(design, name)) for name in TAKEN))
+        self._library.prepare(
+            self._design, *(ctypes.c_double(getattr(design, name)) for name in TAKEN)
+        )
 
     def solve_each(self, tension_l: Floats, tension_s: Floats) -> float:
         """Solve pair by pair for angle and pressure; return their sum."""

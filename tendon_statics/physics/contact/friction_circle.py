@@ -75,9 +75,7 @@ class LoadedFrictionCircleLaw(LoadedLaw):
             low, high = numbers.least(low, turned), numbers.greatest(high, turned)
         least, most = wave_bounds(numbers, sin_psi, cos_psi, other_sin_psi, other_cos_psi, 1.0)
         scale = self._ratio * self._share
-        return scaled_bounds(
-            numbers, -most, -least, scale / (high + LEAST), scale / (low + LEAST)
-        )
+        return scaled_bounds(numbers, -most, -least, scale / (high + LEAST), scale / (low + LEAST))
 
     def by_share(self, state: State) -> Any:
         _, _, cos_psi, _, size = state
@@ -90,9 +88,7 @@ class LoadedFrictionCircleLaw(LoadedLaw):
     def normal_slopes(self, state: State, moment: Any) -> NormalSlopes:
         _, _, cos_psi, sin_psi, _ = state
         normal, share = self.normal(state, moment), self._share
-        return (
-            normal, (cos_psi + share) / normal, -share * sin_psi / normal, -moment / normal
-        )
+        return (normal, (cos_psi + share) / normal, -share * sin_psi / normal, -moment / normal)
 
     def contact(self, state: State, moment: Any, normal: Any) -> ContactShares:
         """The contact lies ahead of the reaction by the angle of friction that is used."""
@@ -102,6 +98,7 @@ class LoadedFrictionCircleLaw(LoadedLaw):
         to_axis = (normal * along + moment * across) / (size * size)
         to_side = (moment * along - normal * across) / (size * size)
         pressure = (normal * to_axis, normal * to_side)
-        return (
-            pressure, (moment * to_side, -moment * to_axis), pressure, size > moment
-        )
+        return pressure, (moment * to_side, -moment * to_axis), pressure
+
+    def consistent(self, state: State, moment: Any) -> Any:
+        return state[4] > moment
