@@ -14,7 +14,7 @@ from .array_numbers import ARRAYS
 from .array_roots import Floats, array_brackets, array_refine
 from .design import JointDesign
 from .errors import LoadError, TensionError
-from .forces import Contact, ContactForces, ForceRemainder, contact_at
+from .forces import ContactForces, ForceRemainder, contact_forces
 from .gradients import TensionGradient, angle_by_tensions, normal_by_tensions, of_sides
 from .load import UPRIGHT, DeadLoad, Load, tension_excess
 from .slip import LoadedJoint, Slip, SlipPoint
@@ -86,18 +86,17 @@ class EquilibriumBatch:
     @property
     def forces(self) -> ContactForces:
         """The forces on the joint surface in N."""
-        return self._contact.forces
+        return self._contact[0]
 
     @property
     def force_remainder(self) -> ForceRemainder:
         """What Eqs. (1) and (2) leave over, one by one, in N."""
-        return self._contact.remainder
+        return self._contact[1]
 
     @property
     def branch_consistent(self) -> NDArray[np.bool_]:
         """Whether Eqs. (1) and (2) ask for the contact force taken."""
-        flags: Any = self._contact.consistent
-        return flags  # type: ignore[no-any-return]
+        return self._contact[2]
 
     @property
     def bend_angle_gradient(self) -> TensionGradient:
@@ -122,22 +121,19 @@ class EquilibriumBatch:
         return deviation
 
     @cached_property
-    def _contact(self) -> Contact:
+    def _contact(self) -> tuple[ContactForces, ForceRemainder, NDArray[np.bool_]]:
         shape = self.bend_angle.shape
         numbers: Any = np.full((6, *shape), np.nan)
         consistent: Any = np.zeros(shape, np.bool_)
         rows, flags = numbers.reshape(6, -1), consistent.reshape(-1)
         with np.errstate(all='ignore'):
             for at, slip, point in self._points():
-                contact = contact_at(slip, point, point.capacity)
-                rows[:, at] = (*contact.forces, *contact.remainder)
-                flags[at] = contact.consistent
-        return Contact(
-            self.normal_force,
-            ContactForces(*numbers[:4]),
-            ForceRemainder(*numbers[4:]),
-            consistent,
-        )
+                state, limit = point.state, point.capacity
+                normal = slip.law.normal(state, limit)
+                forces, remainder = contact_forces(slip, point, limit, normal)
+                rows[:, at] = (*forces, *remainder)
+                flags[at] = slip.law.consistent(state, limit)
+        return ContactForces(*numbers[:4]), ForceRemainder(*numbers[4:]), consistent
 
     @cached_property
     def _gradients(self) -> tuple[TensionGradient, TensionGradient]:

@@ -76,47 +76,37 @@ class ForceRemainder(NamedTuple):
         return {'x': x, 'z': z}
 
 
-class Contact(NamedTuple):
-    """The contact between unit and ball, held against Eqs. (1) and (2); floats, or arrays."""
-
-    normal_force: Any
-    """N in N"""
-    forces: ContactForces
-    remainder: ForceRemainder
-    consistent: Any
-    """Whether Eqs. (1) and (2) ask for such forces"""
-
-
-def contact_at(slip: Slip, point: SlipPoint, friction: Any) -> Contact:
-    """Return the contact of a unit at a point of its slip function.
+def contact_forces(
+    slip: Slip, point: SlipPoint, friction: Any, normal: Any
+) -> tuple[ContactForces, ForceRemainder]:
+    """Return the forces on a unit at a point of its slip function; floats, or arrays.
 
     Parameters
     ----------
     friction : float
         Moment that friction takes up in units of r T: M, or K where friction is at its limit and a
         stop takes the rest, as a couple.
+    normal : float
+        N / T for it.
     """
-    normal = slip.law.normal(point.state, friction)
-    (pressed, pushed), (lifted, dragged), (balanced, opposed), consistent = slip.law.contact(
+    (pressed, pushed), (lifted, dragged), (balanced, opposed) = slip.law.contact(
         point.state, friction, normal
     )
-    share = slip.share
-    total, side = slip.total, slip.side
+    share, total, side = slip.share, slip.total, slip.side
     cosine, sine = point.turn
     left_along = balanced + lifted - 1.0 - share * point.cosine
     left_across = opposed + dragged + share * point.sine
+    across = side * total
     # From the unit's axis, and across it to the side of slip, to X and Z.
-    return Contact(
-        total * normal,
+    return (
         ContactForces(
-            side * total * (pressed * sine + pushed * cosine),
+            across * (pressed * sine + pushed * cosine),
             total * (pressed * cosine - pushed * sine),
-            -side * total * (lifted * sine + dragged * cosine),
+            -across * (lifted * sine + dragged * cosine),
             total * (lifted * cosine - dragged * sine),
         ),
         ForceRemainder(
-            side * total * (left_along * sine + left_across * cosine),
+            across * (left_along * sine + left_across * cosine),
             total * (left_along * cosine - left_across * sine),
         ),
-        consistent,
     )

@@ -21,9 +21,11 @@ MOST_INTERVALS = 4000
 """Intervals that are looked at before the rest is taken as too flat to resolve; a few suffice for
 any function but one made up to be flat"""
 
-HALVING_STEPS = frozenset((*range(5, 20, 2), *range(20, 100)))
-"""Steps after which the bracket is halved, whatever the function may promise; four or five steps
-are enough as a rule"""
+USUAL_STEPS = 4
+"""Steps after which every other one halves the bracket; four or five are enough as a rule"""
+
+MOST_HELPED_STEPS = 20
+"""Steps after which each halves the bracket"""
 
 OVERSHOOT = 0.45 * ANGLE_TOLERANCE
 """How far beyond the root the last step is aimed, so that rounding does not put it before"""
@@ -106,10 +108,12 @@ def refine(function: BoundedFunction, bracket: Bracket) -> tuple[Probe, int]:
             low, beyond = probe, OVERSHOOT
         else:
             high, beyond = probe, -OVERSHOOT
-        if steps in HALVING_STEPS:
+        if steps >= MOST_HELPED_STEPS:
             ahead = math.nan
         elif slope and -OVERSHOOT < (step := value / slope) < OVERSHOOT:
             ahead += beyond - step
+        elif steps > USUAL_STEPS and steps % 2:
+            ahead = math.nan
         else:
             ahead = cubic_zero(low, high)
     root = min(max(_chord_zero(low, high), low[0]), high[0])

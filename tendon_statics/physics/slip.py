@@ -207,8 +207,8 @@ class Slip:
         of_cosine, of_sine, of_angle = self._of_cosine, self._of_sine, self._of_angle
         wave, wave_slope = of_sine * cosine - of_cosine * sine, of_cosine * cosine + of_sine * sine
         moment = self._offset + wave_slope + of_angle * angle
-        excess, slope = moment - state[0], wave + of_angle - state[1]
-        return angle, excess, slope, cosine, sine, moment, wave, wave_slope, state
+        slope = wave + of_angle - state[1]
+        return angle, moment - state[0], slope, cosine, sine, moment, wave, wave_slope, state
 
     def slope_bounds(self, one: Probe, other: Probe) -> tuple[Any, Any]:
         """Return bounds of ∂g/∂θ in units of r T between two angles, at most half a turn apart."""
@@ -291,9 +291,9 @@ class Slip:
 
     def margin_at(self, probe: Probe) -> float:
         """M / K where it was probed, for M towards the side of slip; positive towards cable s."""
-        margin = probe[5] / probe[8][0]
-        signed: float = self.side * (1.0 if 1.0 < margin <= 1.0 + ROUNDING else margin)
-        return signed
+        share = probe[5] / probe[8][0]
+        margin: float = self.side * (1.0 if 1.0 < share <= 1.0 + ROUNDING else share)
+        return margin
 
     def residual_at(self, probe: Probe) -> float:
         """(M − K) / (μ r) in N where it was probed; with the paper's law N_m − N_f, Eq. (4)."""

@@ -54,7 +54,7 @@ def shares() -> dict[str, float]:
         (batch_module, 'array_refine', 'the roots'),
         (batch_module, '_solve_chunk', 'sorting pairs by regime, writing fields'),
         (batch_module, '_gradients_of', 'gradients'),
-        (batch_module, 'contact_at', 'forces and remainder'),
+        (batch_module, 'contact_forces', 'forces and remainder'),
     )
     with StopWatches(REST) as watches:
         for owner, name, part in parts:

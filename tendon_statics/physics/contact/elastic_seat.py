@@ -153,4 +153,8 @@ class LoadedElasticSeatLaw(LoadedLaw):
         transverse = dragged - self._share * state[7]
         pressure = (normal, transverse)
         friction = (used * zone.axial_friction * transverse, -dragged)
-        return pressure, friction, pressure, normal > 0.0
+        return pressure, friction, pressure
+
+    def consistent(self, state: State, moment: Any) -> Any:
+        """The seat presses on the ball."""
+        return self.normal(state, moment) > 0.0

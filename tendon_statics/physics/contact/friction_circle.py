@@ -98,4 +98,7 @@ class LoadedFrictionCircleLaw(LoadedLaw):
         to_axis = (normal * along + moment * across) / (size * size)
         to_side = (moment * along - normal * across) / (size * size)
         pressure = (normal * to_axis, normal * to_side)
-        return (pressure, (moment * to_side, -moment * to_axis), pressure, size > moment)
+        return pressure, (moment * to_side, -moment * to_axis), pressure
+
+    def consistent(self, state: State, moment: Any) -> Any:
+        return state[4] > moment

@@ -41,9 +41,9 @@ NormalSlopes = tuple[Any, Any, Any, Any]
 Pair = tuple[Any, Any]
 """A force along the unit's axis and across it, to the side of slip, in shares of T"""
 
-ContactShares = tuple[Pair, Pair, Pair, Any]
-"""Resultants of pressure and friction on the unit, what Eqs. (1) and (2) have in place of the
-pressure, and whether the forces are those that they ask for"""
+ContactShares = tuple[Pair, Pair, Pair]
+"""Resultants of pressure and friction on the unit, and what Eqs. (1) and (2) have in place of the
+pressure"""
 
 
 class LoadedLaw(ABC):
@@ -77,6 +77,10 @@ class LoadedLaw(ABC):
     @abstractmethod
     def contact(self, state: State, moment: Any, normal: Any) -> ContactShares:
         """Return the forces on the unit while friction takes up f, with n for it."""
+
+    @abstractmethod
+    def consistent(self, state: State, moment: Any) -> Any:
+        """Return whether Eqs. (1) and (2) ask for these forces."""
 
 
 class ContactLaw(ABC):

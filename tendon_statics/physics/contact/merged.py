@@ -91,9 +91,7 @@ class LoadedMergedLaw(LoadedLaw):
         steepness = friction / (root + LEAST)
         return capacity, share * capacity * cos_phi * steepness, sin_phi, cos_phi, steepness
 
-    def slope_bounds(  # noqa: ARG002
-        self, one: State, other: State, width: Any
-    ) -> tuple[Any, Any]:
+    def slope_bounds(self, one: State, other: State, width: Any) -> tuple[Any, Any]:  # noqa: ARG002
         # n / R grows with sin φ: its derivative by it is μ w n (R + B) / R³, never negative.
         numbers, share = self._numbers, self._share
         capacity, _, sin_phi, cos_phi, steepness = one
@@ -138,15 +136,15 @@ class LoadedMergedLaw(LoadedLaw):
             (share * sin_phi - moment) / divisor,
         )
 
-    def contact(self, state: State, moment: Any, normal: Any) -> ContactShares:
-        """Both forces act at β from the unit's axis; Eqs. (1) and (2) have N along it.
-
-        They ask for the root taken, N < T, while F sin φ > |P|.
-        """
-        sin_phi, sine, cosine = state[2], self._law.sine, self._law.cosine
+    def contact(self, state: State, moment: Any, normal: Any) -> ContactShares:  # noqa: ARG002
+        """Both forces act at β from the unit's axis; Eqs. (1) and (2) have N along it."""
+        sine, cosine = self._law.sine, self._law.cosine
         return (
             (normal * cosine, normal * sine),
             (moment * sine, -moment * cosine),
             (normal, 0.0 * normal),
-            moment * sin_phi > self._share,
         )
+
+    def consistent(self, state: State, moment: Any) -> Any:
+        """They ask for the root taken, N < T, while F sin φ > |P|."""
+        return moment * state[2] > self._share
