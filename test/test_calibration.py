@@ -27,6 +27,7 @@ from tendon_statics.physics.calibration.load_cells import LoadCells
 from tendon_statics.physics.calibration.parameters import Model
 
 THREE = ('mass', 'cable_offset', 'friction_coefficient')
+STARTS = {'mass': 0.0196, 'friction_coefficient': 0.6, 'stiffness': 0.0}
 PUBLISHED = Recording([paper.TENSION_L], [paper.TENSION_S], [paper.BEND_ANGLE], [paper.PRESSURE])
 
 
