@@ -8,9 +8,9 @@ from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch_ros.actions import Node
 from launch_ros.utilities import make_namespace_absolute, prefix_namespace
 
-from tendon_statics.joint_names import JointNames, load_joint_names
-from tendon_statics.launch_actions import as_they_are, robot_state_publisher
-from tendon_statics.unit_description import unit_description
+from tendon_statics.launching.actions import as_they_are, robot_state_publisher
+from tendon_statics.launching.joint_names import JointNames, load_joint_names
+from tendon_statics.launching.unit_description import unit_description
 
 
 def generate_launch_description():

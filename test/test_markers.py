@@ -9,7 +9,8 @@ from std_msgs.msg import Header
 from visualization_msgs.msg import Marker
 
 from tendon_statics import Regime, solve
-from tendon_statics.node.markers import COLOURS, no_markers, unit_markers
+from tendon_statics.estimation.regimes import REGIME_COLOURS, red_green_blue
+from tendon_statics.node.outputs.markers import no_markers, unit_markers
 from tendon_statics.physics import admissible_angles
 
 HEADER = Header(frame_id='joint')
@@ -19,7 +20,7 @@ HELD, SLIPPING, STOP, SLACK = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0), (0.0, 2.0)
 def drawn(design, tensions) -> tuple[Marker, Marker, Marker]:
     result = solve(design, *tensions)
     intervals = [] if result.regime is Regime.SLACK else admissible_angles(design, *tensions)
-    unit, band, label = unit_markers(design, result, intervals, HEADER).markers
+    unit, band, label, *_ = unit_markers(result, intervals, HEADER).markers
     return unit, band, label
 
 
@@ -41,8 +42,8 @@ def test_what_is_not_determined_is_taken_away():
 
 
 def test_regimes_differ_in_colour():
-    assert set(COLOURS) == set(Regime)
-    assert len(set(COLOURS.values())) == len(COLOURS)
+    assert set(REGIME_COLOURS) == set(Regime)
+    assert len(set(map(red_green_blue, REGIME_COLOURS.values()))) == len(REGIME_COLOURS)
 
 
 @given(cases())

@@ -6,8 +6,8 @@ from xml.etree import ElementTree
 import pytest
 
 from tendon_statics import default_design_path
-from tendon_statics.joint_names import JointNames
-from tendon_statics.unit_description import DescriptionError, unit_description
+from tendon_statics.launching.joint_names import JointNames
+from tendon_statics.launching.unit_description import DescriptionError, unit_description
 
 
 def test_it_has_the_names_that_it_is_given(tmp_path):

@@ -15,7 +15,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from scipy.spatial.transform import Rotation
 from std_msgs.msg import Header
 
-from tendon_statics.node.messages import fill_unit_pose
+from tendon_statics.node.outputs.messages import fill_unit_pose
 
 URDF = Path(get_package_share_directory('tendon_statics'), 'urdf')
 

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import list_driver_parameters
 import list_entities
+import list_parameters
 import list_permissions
 
 from tendon_statics.command_line.main import main as run
@@ -40,6 +41,7 @@ FIGURES = {
 TOOLS = {
     'tools/list_driver_parameters.py': list_driver_parameters.main,
     'tools/list_entities.py': list_entities.main,
+    'tools/list_parameters.py': list_parameters.main,
     'tools/list_permissions.py': list_permissions.main,
 }
 

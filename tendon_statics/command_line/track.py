@@ -35,6 +35,7 @@ def run(options: argparse.Namespace) -> int:
         unit.design,
         recording,
         'tracking',
+        settings=unit.settings,
         initial_bend_angle=initial_bend_angle_from(options, unit),
         progress=with_progress,
     )

@@ -14,8 +14,8 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Float64, Float64MultiArray
 
-from tendon_statics.node.estimator import INPUT_DEPTH
-from tendon_statics.node.outputs import OUTPUT_DEPTH
+from tendon_statics.node.inputs.subscriptions import INPUT_DEPTH
+from tendon_statics.node.outputs.publishers import OUTPUT_DEPTH
 from tendon_statics.physics import paper
 
 

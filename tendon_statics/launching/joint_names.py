@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
-from .files.parameter_file import node_parameter
-from .files.yaml_file import YamlFileError, read_yaml
+from ..files.parameter_file import node_parameter
+from ..files.yaml_file import YamlFileError, read_yaml
 
 
 class JointNameError(ValueError):

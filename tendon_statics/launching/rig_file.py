@@ -8,14 +8,14 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from ..joint_names import JointNameError, JointNames, check_joint_name, load_joint_names
+from ..files.design_file import load_design
+from ..files.estimator_parameters import TENSION_SOURCES
+from ..files.yaml_file import YamlFileError, read_yaml
 from ..physics.design import JointDesign
 from ..physics.errors import DesignError
 from ..recordings.errors import RecordingError
 from ..recordings.reading.load import load_recording
-from .design_file import load_design
-from .unit_parameters import TENSION_SOURCES
-from .yaml_file import YamlFileError, read_yaml
+from .joint_names import JointNameError, JointNames, check_joint_name, load_joint_names
 
 
 class RigFileError(ValueError):
