@@ -46,7 +46,9 @@ def start_rig(context):
     if arguments['robot_state_publisher'] == 'true':
         actions += [
             robot_state_publisher(
-                unit_description(joint.design_file, joint.names, unit=f'{joint.namespace}/unit'),
+                unit_description(
+                    joint.design_file, joint.names, f'{joint.namespace}/unit', joint.base_turn
+                ),
                 joint.namespace,
                 joint.joint_state_topic,
             )

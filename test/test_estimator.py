@@ -459,7 +459,6 @@ def test_tracking_remembers_where_the_unit_was(listener):
         states = [tracker.update(*row) for row in cycle]
         for row, state in zip(cycle, states, strict=True):
             assert listener.answer(*row) == state.regime.value
-            assert listener.answer(math.nan, 1.0) == 'invalid'
         wait_for('the angles', lambda: len(listener.bend_angles) == len(cycle))
         wait_for('the estimates', lambda: len(listener.estimates) == len(cycle))
         wait_for('the poses', lambda: len(listener.unit_poses) == len(cycle))
@@ -478,6 +477,22 @@ def test_tracking_remembers_where_the_unit_was(listener):
         result = json.loads(listener.solve_latest().message)
         assert result['bend_angle'] == states[-1].bend_angle
         assert result['regime'] == 'held'
+
+
+@pytest.mark.parametrize('row', [(math.nan, 1.0), (1.0,), (0.02, 2.0), (-0.02, 2.0), (0.05, 0.1)])
+def test_what_cannot_vouch_for_a_tracked_unit_casts_doubt_until_a_stop(row, listener):
+    """What is no pair of tensions, or that of a cable which is slack but for noise."""
+    with listener.estimator('-p', 'estimation:=tracking', '-p', 'input_timeout:=60.0'):
+        listener.answer(*HELD)
+        assert listener.reset().success
+        listener.answer(*HELD)
+        assert listener.newest_estimate().angle_assured
+        assert listener.answer(*row) == ('slack' if 2.0 in row else 'invalid')
+        listener.answer(*HELD)
+        estimate = listener.newest_estimate()
+        assert (estimate.bend_angle, estimate.angle_assured) == (0.0, False)
+        listener.answer(*STOP)
+        assert listener.newest_estimate().angle_assured
 
 
 def test_a_tracked_unit_is_corrected_by_an_encoder_and_put_back_by_reset(listener):

@@ -133,7 +133,8 @@ def test_what_a_file_says_beside_the_design_is_written_again(unit, tmp_path):
 
 
 RAW = (
-    'time,tension_l,tension_s\n0,1100,2000\n0.1,1100,1500\n0.2,1100,-50\n0.3,1100,9000\n0.4,nan,1\n'
+    'time,tension_l,tension_s\n0,1100,2000\n0.1,1100,1500\n0.2,1100,-50\n'
+    '0.3,1100,9000\n0.4,nan,1\n'
 )
 GAINS = (
     *('cable_l.gain: 0.001', 'cable_s.gain: 0.001', 'cable_l.bias: -0.1'),

@@ -191,6 +191,7 @@ class Listener(Node):
                 ('solve_inverse', SolveInverse),
                 ('solve_latest', Trigger),
                 ('reset', Trigger),
+                ('tare', Trigger),
                 ('change_state', ChangeState),
                 ('get_state', GetState),
                 ('get_parameters', GetParameters),
@@ -431,6 +432,10 @@ class Listener(Node):
     def reset(self) -> Trigger.Response:
         """Call ``~/reset``."""
         return self.call('reset', Trigger.Request())
+
+    def tare(self) -> Trigger.Response:
+        """Call ``~/tare``."""
+        return self.call('tare', Trigger.Request())
 
     def solve_latest(self) -> Trigger.Response:
         """Call ``~/solve_latest``."""

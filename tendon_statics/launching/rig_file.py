@@ -15,6 +15,7 @@ from ..physics.design import JointDesign
 from ..physics.errors import DesignError
 from ..recordings.errors import RecordingError
 from ..recordings.reading.load import load_recording
+from .base_turn import load_base_turn
 from .joint_names import JointNameError, JointNames, check_joint_name, load_joint_names
 
 
@@ -64,6 +65,11 @@ class RigJoint:
     def _seen_from_namespace(self, name: str) -> str:
         """The estimator's name of a topic, however it is written, in one way of writing."""
         return re.sub('^~/', 'estimator/', name).removeprefix(f'/{self.namespace}/')
+
+    @property
+    def base_turn(self) -> tuple[float, float] | None:
+        """Roll and pitch in rad of its base, where gravity's direction is given."""
+        return load_base_turn(self.design_file, f'/{self.namespace}/estimator', self.parameters)
 
     def estimator_parameters(self) -> dict[str, Any]:
         """All parameters of the estimator."""

@@ -14,7 +14,12 @@ class DescriptionError(RuntimeError):
     """A unit cannot be described; the text is for the user."""
 
 
-def unit_description(design_file: str | Path, names: JointNames, unit: str = 'unit') -> str:
+def unit_description(
+    design_file: str | Path,
+    names: JointNames,
+    unit: str = 'unit',
+    base_turn: tuple[float, float] | None = None,
+) -> str:
     """Expand ``urdf/unit.urdf.xacro``.
 
     Parameters
@@ -25,6 +30,9 @@ def unit_description(design_file: str | Path, names: JointNames, unit: str = 'un
         Those of the estimator.
     unit
         The link of the unit.
+    base_turn
+        Roll and pitch in rad of the joint's frame in a link with Z up, which is then there too,
+        with ``_base`` after the name of the frame.
 
     Raises
     ------
@@ -46,6 +54,13 @@ def unit_description(design_file: str | Path, names: JointNames, unit: str = 'un
         'parent': names.frame_id,
         'joint_name': names.joint_name,
     }
+    if base_turn is not None:
+        roll, pitch = base_turn
+        arguments |= {
+            'base': f'{names.frame_id}_base',
+            'base_roll': repr(roll),
+            'base_tilt': repr(pitch),
+        }
     try:
         description: str = xacro.process_file(str(urdf), mappings=arguments).toxml()
     except (xacro.XacroException, ExpatError) as error:
