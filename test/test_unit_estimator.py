@@ -97,13 +97,16 @@ def test_a_load_that_was_never_known_moves_no_unit_and_one_that_is_lost_casts_do
     unit = tracking()
     tilted = Load.tilted(0.3)
     never = KnownLoad(tilted, is_assured=False, is_measured=False)
+    # Not even a stop is one for sure.
     slipped = unit.take(*STOP, never, 0.0)
-    assert (slipped.regime, slipped.angle_assured) == (Regime.DRIVEN_TO_STOP, True)  # by the stop
+    assert (slipped.regime, slipped.angle_assured) == (Regime.DRIVEN_TO_STOP, False)
     held = unit.take(*HELD, KNOWN, 0.1)
     assert (held.bend_angle, held.angle_assured) == (0.0, True)
     lost = KnownLoad(UPRIGHT, is_assured=False)
     assert not unit.take(*HELD, lost, 0.2).angle_assured
-    assert not unit.take(*HELD, KNOWN, 0.3).angle_assured
+    assert not unit.take(*STOP, lost, 0.3).angle_assured
+    assert not unit.take(*HELD, KNOWN, 0.4).angle_assured
+    assert unit.take(*STOP, KNOWN, 0.5).angle_assured
     assert 'the load is not assured' in '; '.join(unit.health.findings())
 
 

@@ -147,7 +147,7 @@ class UnitEstimator:
             tension_l, tension_s = self._watch.take(
                 (tension_l, tension_s), measured, settings.scales, settings.plausibility
             )
-            result = self._result(self._tracker_for(known), tension_l, tension_s, known.load)
+            result = self._followed(tension_l, tension_s, known)
         except ReadingError as error:
             raise self._refused((error.reason, str(error))) from None
         except TensionError as error:
@@ -175,15 +175,16 @@ class UnitEstimator:
             if not now - vouched <= self._settings.input_timeout:
                 self.lose_sight()
 
-    def _tracker_for(self, known: KnownLoad) -> StickSlipTracker | None:
-        """Return what is to follow the unit; it must not go where a wrong load would take it."""
+    def _followed(self, tension_l: float, tension_s: float, known: KnownLoad) -> Equilibrium:
+        """Work out where the unit goes; under a load that may be wrong nothing of it is sure."""
         tracker = self._tracker
         if tracker is None or known.is_assured:
-            return tracker
+            return self._result(tracker, tension_l, tension_s, known.load)
         if not known.is_measured:  # The unit stays where it began until the load is known.
             tracker = copy.copy(tracker)
+        result = self._result(tracker, tension_l, tension_s, known.load)
         tracker.doubt()
-        return tracker
+        return result._replace(angle_assured=False)
 
     def _result(
         self, tracker: StickSlipTracker | None, tension_l: float, tension_s: float, load: Load

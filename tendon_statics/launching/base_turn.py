@@ -47,6 +47,7 @@ def load_base_turn(
             return None
         (parameter,) = (vector for vector in VECTORS if vector.name == 'gravity_direction')
         parameter.check(direction)
-        return roll_and_pitch(Load(tuple(map(float, direction))).gravity_direction)
+        x, y, z = map(float, direction)
+        return roll_and_pitch(Load((x, y, z)).gravity_direction)
     except (YamlFileError, ValueError) as error:  # SettingError and LoadError are such
         raise BaseTurnError(f'{path}: {error}') from None
