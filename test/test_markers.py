@@ -2,13 +2,14 @@
 
 import math
 
+import numpy as np
 import pytest
 from designs import PRELIMINARY, cases
 from hypothesis import given
 from std_msgs.msg import Header
 from visualization_msgs.msg import Marker
 
-from tendon_statics import Regime, solve
+from tendon_statics import Load, Regime, solve
 from tendon_statics.estimation.regimes import REGIME_COLOURS, red_green_blue
 from tendon_statics.node.outputs.markers import no_markers, unit_markers
 from tendon_statics.physics import admissible_angles
@@ -31,6 +32,21 @@ def test_the_unit_points_to_its_angle(tensions):
     assert math.atan2(tip.x, tip.z) == pytest.approx(solve(PRELIMINARY, *tensions).bend_angle)
     assert unit.action == label.action == Marker.ADD
     assert unit.header.frame_id == 'joint'
+
+
+def test_gravity_and_the_force_on_the_tip_are_arrows():
+    load = Load((0.6, 0.0, -0.8), tip_force=(0.03, -0.04), tip_distance=0.02)
+    result = solve(PRELIMINARY, *STOP, load)
+    *_, gravity, tip_force = unit_markers(result, [], HEADER).markers
+    start, end = gravity.points
+    arrow = np.array([end.x - start.x, end.y - start.y, end.z - start.z])
+    assert arrow / np.linalg.norm(arrow) == pytest.approx(load.gravity_direction)
+    start, end = tip_force.points
+    angle = result.bend_angle
+    assert (end.x, end.z) == pytest.approx((0.02 * math.sin(angle), 0.02 * math.cos(angle)))
+    assert (end.x - start.x) / (end.z - start.z) == pytest.approx(0.03 / -0.04)
+    *_, gravity, tip_force = unit_markers(solve(PRELIMINARY, *STOP), [], HEADER).markers
+    assert (gravity.action, tip_force.action) == (Marker.ADD, Marker.DELETE)
 
 
 def test_what_is_not_determined_is_taken_away():

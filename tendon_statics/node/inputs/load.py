@@ -114,6 +114,8 @@ class LoadInputs:
                 'tip_wrench', WrenchStamped, 'force on the tip', self._of_wrench
             )
 
+        self._measured = [of for of in (self._gravity, self._tip_force) if of is not None]
+
     def _listen(
         self, topic: str, message_type: type, what: str, read: Callable[[Any], Value]
     ) -> Measured[Value]:
@@ -130,10 +132,6 @@ class LoadInputs:
 
         self.inputs[topic] = (message_type, take)
         return measured
-
-    @property
-    def _measured(self) -> list[Measured[Any]]:
-        return [of for of in (self._gravity, self._tip_force) if of is not None]
 
     def known(self, now: float) -> KnownLoad:
         """Return the load of the present, on the steady clock in s."""
