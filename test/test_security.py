@@ -14,7 +14,7 @@ from make_docs import ROOT
 from rclpy.node import Node
 
 from tendon_statics.driver.pulley_driver import PulleyDriver
-from tendon_statics.files.estimator_parameters import TENSION_SOURCES
+from tendon_statics.files.cable_parameters import TENSION_SOURCES
 from tendon_statics.files.installed_files import installed_config
 from tendon_statics.node.estimator import Estimator
 

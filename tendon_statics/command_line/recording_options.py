@@ -7,7 +7,7 @@ import re
 import sys
 from pathlib import Path
 
-from ..files.estimator_parameters import TENSION_SOURCES
+from ..files.cable_parameters import TENSION_SOURCES
 from ..files.unit_file import Unit
 from ..recordings.hints import hints
 from ..recordings.reading.clock import CLOCKS

@@ -16,8 +16,8 @@ from rclpy.clock import Clock, ClockType
 from rclpy.logging import get_logger
 from rclpy.node import Node
 
+from ..files.cable_parameters import BIASES, GAINS
 from ..files.driver_parameters import DRIVER_PARAMETERS
-from ..files.estimator_parameters import BIASES, GAINS
 from ..files.fault_settings import STAMP_FAULTS, Fault, FaultSettings, fault_parameters
 from ..files.installed_files import installed_config
 from ..files.parameter_kinds import SettingError

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .estimator_parameters import BIASES, CABLE_NAMES, GAINS, TENSION_SOURCE, WRENCH_COMPONENT
+from .cable_parameters import BIASES, CABLE_NAMES, GAINS, TENSION_SOURCE, WRENCH_COMPONENT
 from .fault_settings import fault_parameters
 from .parameter_kinds import NumberParameter, Parameter, SwitchParameter, TextParameter
 

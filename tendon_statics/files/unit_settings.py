@@ -13,13 +13,7 @@ from ..physics.design import JointDesign
 from ..physics.errors import BendAngleError, DesignError, LoadError
 from ..tensions.cable_scale import CableScale
 from ..tensions.watch import Plausibility
-from .estimator_parameters import (
-    DESIGN,
-    ESTIMATOR_PARAMETERS,
-    NUMBERS,
-    VECTORS,
-    known_names,
-)
+from .estimator_parameters import DESIGN, ESTIMATOR_PARAMETERS, NUMBERS, VECTORS, known_names
 from .parameter_kinds import Parameter, SettingError
 
 

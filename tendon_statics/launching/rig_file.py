@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from ..files.cable_parameters import TENSION_SOURCES
 from ..files.design_file import load_design
-from ..files.estimator_parameters import TENSION_SOURCES
 from ..files.yaml_file import YamlFileError, read_yaml
 from ..physics.design import JointDesign
 from ..physics.errors import DesignError

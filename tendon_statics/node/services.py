@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
-from ..files.estimator_parameters import BIASES
+from ..files.cable_parameters import BIASES
 from ..physics import LoadError, TensionError, solve
 from ..tensions.tare import TareError, tare
 from .outputs import messages

@@ -12,7 +12,7 @@ from geometry_msgs.msg import Vector3, WrenchStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
-from ...files.estimator_parameters import CABLES
+from ...files.cable_parameters import CABLES
 from ...tensions.named_values import cable_values
 from ...tensions.pairing import Pairing, Single
 from ...tensions.reason import Fault, Reason

@@ -10,13 +10,7 @@ from rclpy.node import Node
 
 from ...estimation.settings import Settings
 from ...files.design_file import default_design_path, load_design
-from ...files.estimator_parameters import (
-    DESIGN,
-    NUMBERS,
-    VECTORS,
-    WIRING,
-    design_table,
-)
+from ...files.estimator_parameters import DESIGN, NUMBERS, VECTORS, WIRING, design_table
 from ...files.parameter_kinds import Parameter, SettingError
 from ...files.unit_settings import settings_from
 from ...physics import DesignError, JointDesign, design_fields
