@@ -1,4 +1,4 @@
-"""Parameters of how the tensions of both cables come, which estimator and stand-in driver share."""
+"""Parameters of how the tensions of both cables come, which estimator and driver share."""
 
 from __future__ import annotations
 
