@@ -12,6 +12,7 @@ from tendon_statics.estimation.unit_estimator import KnownLoad, UnitEstimator
 from tendon_statics.physics import UPRIGHT
 from tendon_statics.tensions.cable_scale import CableScale
 from tendon_statics.tensions.reason import ReadingError, Reason
+from tendon_statics.tensions.watch import Plausibility
 
 HELD, SLIPPING, STOP = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0)
 KNOWN = KnownLoad(UPRIGHT)
@@ -108,6 +109,17 @@ def test_a_load_that_was_never_known_moves_no_unit_and_one_that_is_lost_casts_do
     assert not unit.take(*HELD, KNOWN, 0.4).angle_assured
     assert unit.take(*STOP, KNOWN, 0.5).angle_assured
     assert 'the load is not assured' in '; '.join(unit.health.findings())
+
+
+def test_another_bias_is_no_step_of_the_tension():
+    """As ``~/tare`` sets one."""
+    believed = Plausibility(max_rate=1.0)
+    unit = UnitEstimator(dataclasses.replace(SETTINGS, plausibility=believed))
+    unit.take(*HELD, KNOWN, 0.0, measured=0.0)
+    with pytest.raises(ReadingError, match='tension_l went from 1 N to 3 N'):
+        unit.take(3.0, 1.5, KNOWN, 0.1, measured=0.1)
+    unit.change_settings(dataclasses.replace(unit.settings, cable_l=CableScale(bias=2.0)))
+    assert unit.take(*HELD, KNOWN, 0.2, measured=0.2).tension_l == 3.0
 
 
 def test_asking_again_does_not_move_the_unit():

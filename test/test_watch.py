@@ -73,6 +73,12 @@ def test_a_cell_at_the_end_of_its_range_is_saturated_until_it_comes_back():
     assert found == [1.0, 5.0, 5.0, Reason.SATURATED, Reason.SATURATED, 4.9, 4.9, 4.9, 5.0]
 
 
+def test_a_spike_that_was_too_fast_is_not_the_end_of_a_range():
+    believed = Plausibility(max_rate=20.0, saturation_count=2)
+    found = outcomes([1.0, 9.0, 1.1, 2.0, 2.0], believed)
+    assert found == [1.0, Reason.TOO_FAST, 1.1, 2.0, Reason.SATURATED]
+
+
 def test_a_cell_that_hangs_is_frozen_unless_its_cable_is_slack():
     believed = Plausibility(frozen_count=3)
     assert outcomes([1.0, 0.9, 0.9, 0.9, 0.9, 0.91], believed) == [

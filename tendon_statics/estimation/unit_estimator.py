@@ -87,6 +87,8 @@ class UnitEstimator:
     def change_settings(self, settings: Settings) -> str:
         """Go on with other settings; return what is to be said of the unit, mostly nothing."""
         before, self._settings = self._settings, settings
+        if settings.scales != before.scales:  # What was watched was in other newtons.
+            self._watch = PairWatch()
         if self._tracker is None or settings.design == before.design:
             return ''
         angle = self._tracker.bend_angle

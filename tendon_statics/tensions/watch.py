@@ -61,7 +61,7 @@ class CellWatch:
     same: int = 0
     """How many in a row were the same as the newest of all"""
     largest: float = -math.inf
-    """N; of all"""
+    """N; of all that did not come too fast"""
 
     def take(self, tension: float, time: float, believed: Plausibility, threshold: float) -> None:
         """Take a tension in N at a time in s, up to `threshold` of a slack cable.
@@ -73,13 +73,13 @@ class CellWatch:
         """
         self.same = self.same + 1 if tension == self.before else 1
         self.before = tension
-        self.largest = max(self.largest, tension)
         if 0.0 < believed.max_rate * (time - self.time) < abs(tension - self.newest):
             raise ReadingError(
                 Reason.TOO_FAST,
                 f'{self.name} went from {self.newest:.6g} N to {tension:.6g} N in '
                 f'{time - self.time:.6g} s, believed are {believed.max_rate:g} N/s',
             )
+        self.largest = max(self.largest, tension)
         if tension > threshold:  # A slack cable may well read the same all the time.
             if tension == self.largest and 0 < believed.saturation_count <= self.same:
                 raise ReadingError(
