@@ -8,7 +8,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .files.design_file import default_design_path, load_design, save_design
+    from .files.design_file import (
+        default_design_path,
+        load_design,
+        load_design_uncertainty,
+        save_design,
+    )
     from .physics import (
         UPRIGHT,
         BendAngleError,
@@ -16,20 +21,24 @@ if TYPE_CHECKING:
         CalibrationError,
         ContactForces,
         DesignError,
+        DesignUncertainty,
         Equilibrium,
         EquilibriumBatch,
         ForceRemainder,
         JointDesign,
+        LawComparison,
         Load,
         LoadError,
         Regime,
         StickSlipTracker,
+        TendonStaticsError,
         TensionError,
         TensionGradient,
         Tensions,
         UnreachableError,
         admissible_angles,
         calibrate,
+        compare_laws,
         design_fields,
         design_parameters,
         residual,
@@ -41,35 +50,44 @@ if TYPE_CHECKING:
     from .recordings.errors import RecordingError
     from .recordings.motion import mark_motion
     from .recordings.reading.load import load_recording
+    from .recordings.reading.table_options import TableOptions
+    from .recordings.reading.topics import BagTopics
     from .recordings.recording import Recording
 
 __all__ = [
     'UPRIGHT',
+    'BagTopics',
     'BendAngleError',
     'Calibration',
     'CalibrationError',
     'ContactForces',
     'DesignError',
+    'DesignUncertainty',
     'Equilibrium',
     'EquilibriumBatch',
     'ForceRemainder',
     'JointDesign',
+    'LawComparison',
     'Load',
     'LoadError',
     'Recording',
     'RecordingError',
     'Regime',
     'StickSlipTracker',
+    'TableOptions',
+    'TendonStaticsError',
     'TensionError',
     'TensionGradient',
     'Tensions',
     'UnreachableError',
     'admissible_angles',
     'calibrate',
+    'compare_laws',
     'default_design_path',
     'design_fields',
     'design_parameters',
     'load_design',
+    'load_design_uncertainty',
     'load_recording',
     'mark_motion',
     'residual',
@@ -81,10 +99,13 @@ __all__ = [
 ]
 
 _NOT_OF_PHYSICS = {
+    'BagTopics': '.recordings.reading.topics',
+    'TableOptions': '.recordings.reading.table_options',
     'Recording': '.recordings.recording',
     'RecordingError': '.recordings.errors',
     'default_design_path': '.files.design_file',
     'load_design': '.files.design_file',
+    'load_design_uncertainty': '.files.design_file',
     'load_recording': '.recordings.reading.load',
     'mark_motion': '.recordings.motion',
     'save_design': '.files.design_file',

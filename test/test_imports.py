@@ -16,12 +16,12 @@ PACKAGE = 'tendon_statics'
 
 BELOW = {
     'physics': (),
-    'tensions': (),
+    'tensions': ('physics',),
     'estimation': ('physics', 'tensions'),
     'files': ('estimation', 'physics', 'tensions'),
     'recordings': ('files', 'estimation', 'physics', 'tensions'),
     'node': ('files', 'estimation', 'physics', 'tensions'),
-    'driver': ('node', 'recordings', 'files'),
+    'driver': ('node', 'recordings', 'files', 'physics'),
     'launching': ('recordings', 'files', 'estimation', 'physics'),
     'command_line': ('recordings', 'files', 'estimation', 'physics', 'tensions'),
 }

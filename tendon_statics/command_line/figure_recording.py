@@ -11,7 +11,7 @@ from ..estimation.regimes import INVALID, REGIME_COLOURS
 from ..physics import JointDesign
 from ..recordings.replay.estimates import Replay
 from .figures import BLUE, GREY, VERMILION
-from .options import add_design_option, add_tension_stddev_option
+from .options import add_design_option, add_load_options, add_tension_stddev_option
 from .recording_options import (
     add_recording_options,
     report_damage,
@@ -37,6 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_recording_options(parser)
     add_design_option(parser)
     add_estimation_options(parser)
+    add_load_options(parser)
     add_tension_stddev_option(parser, default=None)
 
 

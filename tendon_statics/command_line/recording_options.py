@@ -26,6 +26,9 @@ from .progress import with_progress
 
 DEFAULTS = BagTopics()
 
+TIP_WRENCH = '/tip_wrench'
+"""Where the estimator listens"""
+
 
 def add_recording_options(parser: argparse.ArgumentParser) -> None:
     """Add ``DATA`` and what says how it is read: where in a bag or table the numbers are."""
@@ -85,6 +88,19 @@ def _add_bag_options(bag: argparse._ArgumentGroup) -> None:
         '--pressure-topic',
         metavar='TOPIC',
         help='Float64 or Float32; default: /measured_pressure, if it is there',
+    )
+    bag.add_argument(
+        '--base-topic',
+        metavar='TOPIC',
+        help='of the base: Imu, PoseStamped or QuaternionStamped; or its tilt in rad, Float64 or '
+        "Float32; default: what the design file's gravity_source says, or /measured_base_tilt, if "
+        'it is there',
+    )
+    bag.add_argument(
+        '--tip-wrench-topic',
+        metavar='TOPIC',
+        help='of the force at the tip, in the joint frame: WrenchStamped or Wrench; default: '
+        '/tip_wrench if the design file says tip_wrench, else none',
     )
     bag.add_argument('--state-topic', metavar='TOPIC', help='String: slipping or held')
     bag.add_argument(
@@ -156,6 +172,11 @@ def unit_and_recording(options: argparse.Namespace) -> tuple[Unit, Recording]:
         bend_angle=options.bend_angle_topic,
         joint_name=options.joint_name,
         pressure=options.pressure_topic,
+        base=options.base_topic,
+        gravity_source=unit.get('gravity_source') or DEFAULTS.gravity_source,
+        imu_mounting=tuple(unit.get('imu_mounting') or DEFAULTS.imu_mounting),
+        tip_wrench=options.tip_wrench_topic
+        or (TIP_WRENCH if unit.get('tip_wrench') is True else None),
         state=options.state_topic,
         max_skew=options.max_skew,
         tension_skew=unit.get('max_skew'),

@@ -6,8 +6,10 @@ import dataclasses
 import math
 from typing import Any
 
+from ..physics.errors import TendonStaticsError
 
-class SettingError(ValueError):
+
+class SettingError(TendonStaticsError, ValueError):
     """A parameter has a value that is not allowed; the text is for the user."""
 
 

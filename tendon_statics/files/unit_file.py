@@ -9,9 +9,10 @@ from typing import Any
 
 from ..estimation.settings import Settings
 from ..physics.design import JointDesign
+from ..physics.design_uncertainty import DesignUncertainty
 from ..physics.errors import DesignError
 from ..tensions.cable_scale import CableScale
-from .design_file import design_values
+from .design_file import design_values, uncertainty_in
 from .parameter_file import ParameterFileError, node_parameters, read_parameters
 from .parameter_kinds import SettingError
 from .unit_settings import misspelt, settings_from
@@ -24,6 +25,8 @@ class Unit:
     settings: Settings
     parameters: Mapping[str, Any] = dataclasses.field(default_factory=dict)
     """All that the file gives the estimator, by dotted name, as it stands there"""
+    uncertainty: DesignUncertainty | None = None
+    """How well the design is known, if the file says it"""
 
     @property
     def design(self) -> JointDesign:
@@ -73,9 +76,12 @@ def load_unit(path: str | Path, node: str = '') -> Unit:
                 'there is no design in it; it stands under "/**: ros__parameters: design:"'
             )
         JointDesign.from_mapping(design)  # whose error has the key
-        return Unit(settings_from(parameters), parameters)
-    except (ParameterFileError, SettingError) as error:
+    except ParameterFileError as error:
         raise DesignError(f'{path}: {error}') from None
     except DesignError as error:
         key = f'design.{error.key}' if error.key else ''
         raise DesignError(f'{path}: {"design." if error.key else ""}{error}', key=key) from None
+    try:
+        return Unit(settings_from(parameters), parameters, uncertainty_in(parameters))
+    except (SettingError, DesignError) as error:
+        raise DesignError(f'{path}: {error}', key=getattr(error, 'key', '')) from None

@@ -11,9 +11,10 @@ from ..files.estimator_parameters import GRAVITY_SOURCES, VECTORS
 from ..files.parameter_file import node_parameter
 from ..files.yaml_file import YamlFileError, read_yaml
 from ..physics import Load
+from ..physics.errors import TendonStaticsError
 
 
-class BaseTurnError(ValueError):
+class BaseTurnError(TendonStaticsError, ValueError):
     """It cannot be told how a base is turned; the text is for the user."""
 
 

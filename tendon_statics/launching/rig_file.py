@@ -11,12 +11,13 @@ from typing import Any
 from ..files.cable_parameters import TENSION_SOURCES
 from ..files.yaml_file import YamlFileError, read_yaml
 from ..physics.design import JointDesign
+from ..physics.errors import TendonStaticsError
 from .base_turn import load_base_turn
 from .joint_names import JointNameError, JointNames, load_joint_names
 from .rig_values import READERS
 
 
-class RigFileError(ValueError):
+class RigFileError(TendonStaticsError, ValueError):
     """A file that describes no rig.
 
     Attributes

@@ -7,10 +7,11 @@ from xml.parsers.expat import ExpatError
 
 from ament_index_python.packages import get_package_share_directory
 
+from ..physics.errors import TendonStaticsError
 from .joint_names import JointNames
 
 
-class DescriptionError(RuntimeError):
+class DescriptionError(TendonStaticsError, RuntimeError):
     """A unit cannot be described; the text is for the user."""
 
 

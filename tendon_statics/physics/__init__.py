@@ -11,11 +11,13 @@ from .design import (
     design_fields,
     design_parameters,
 )
+from .design_uncertainty import DesignUncertainty
 from .errors import (
     BendAngleError,
     CalibrationError,
     DesignError,
     LoadError,
+    TendonStaticsError,
     TensionError,
     UnreachableError,
 )
@@ -30,8 +32,7 @@ from .tracker import StickSlipTracker
 
 if TYPE_CHECKING:
     from .batch import EquilibriumBatch, solve_batch
-    from .calibration import calibrate
-    from .calibration_result import Calibration
+    from .calibration import Calibration, LawComparison, calibrate, compare_laws
 
 __all__ = [
     'CONTACT_LAWS',
@@ -44,20 +45,24 @@ __all__ = [
     'DesignChoice',
     'DesignError',
     'DesignParameter',
+    'DesignUncertainty',
     'Equilibrium',
     'EquilibriumBatch',
     'ForceRemainder',
     'JointDesign',
+    'LawComparison',
     'Load',
     'LoadError',
     'Regime',
     'StickSlipTracker',
+    'TendonStaticsError',
     'TensionError',
     'TensionGradient',
     'Tensions',
     'UnreachableError',
     'admissible_angles',
     'calibrate',
+    'compare_laws',
     'contact_coefficients',
     'design_fields',
     'design_parameters',
@@ -75,12 +80,8 @@ def __getattr__(name: str) -> Any:
         from . import batch
 
         return getattr(batch, name)
-    if name == 'calibrate':
-        from .calibration import calibrate
+    if name in ('Calibration', 'LawComparison', 'calibrate', 'compare_laws'):
+        from . import calibration
 
-        return calibrate
-    if name == 'Calibration':
-        from .calibration_result import Calibration
-
-        return Calibration
+        return getattr(calibration, name)
     raise AttributeError(f'module {__name__!r} has no attribute {name!r}')

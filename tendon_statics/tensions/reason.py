@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from enum import Enum
 
+from ..physics.errors import TendonStaticsError
+
 
 class Reason(str, Enum):
     """Why a message was dropped."""
@@ -30,7 +32,7 @@ Fault = tuple[Reason, str]
 """Why there is no pair of tensions, and the same in a sentence for people"""
 
 
-class ReadingError(ValueError):
+class ReadingError(TendonStaticsError, ValueError):
     """A reading that is no pair of tensions of the unit; the text is for the user."""
 
     def __init__(self, reason: Reason, text: str) -> None:

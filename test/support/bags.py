@@ -75,6 +75,38 @@ def wrench(x: float, y: float, z: float, time: float) -> Any:
     )
 
 
+def quaternion(x: float, y: float, z: float, w: float) -> Any:
+    """A ``Quaternion``."""
+    return STORE.types['geometry_msgs/msg/Quaternion'](x=x, y=y, z=z, w=w)
+
+
+def pose(orientation: Any, time: float) -> Any:
+    """A ``PoseStamped`` at the origin."""
+    point = STORE.types['geometry_msgs/msg/Point'](x=0.0, y=0.0, z=0.0)
+    return STORE.types['geometry_msgs/msg/PoseStamped'](
+        header=header(time),
+        pose=STORE.types['geometry_msgs/msg/Pose'](position=point, orientation=orientation),
+    )
+
+
+def imu(time: float, orientation: Any = None, acceleration: Iterable[float] = (0, 0, 9.81)) -> Any:
+    """An ``Imu``; without an orientation, as REP 145 says it."""
+    vector = STORE.types['geometry_msgs/msg/Vector3']
+    x, y, z = (float(part) for part in acceleration)
+    unknown = np.zeros(9)
+    if orientation is None:
+        unknown[0] = -1.0
+    return STORE.types['sensor_msgs/msg/Imu'](
+        header=header(time),
+        orientation=orientation or quaternion(0.0, 0.0, 0.0, 0.0),
+        orientation_covariance=unknown,
+        angular_velocity=vector(x=0.0, y=0.0, z=0.0),
+        angular_velocity_covariance=np.zeros(9),
+        linear_acceleration=vector(x=x, y=y, z=z),
+        linear_acceleration_covariance=np.zeros(9),
+    )
+
+
 def estimate(tension_l: float, tension_s: float, time: float) -> Any:
     """An ``Estimate`` with nothing in it but the tensions."""
     _, fields = STORE.fielddefs[ESTIMATE]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...estimation.regimes import INVALID
 from ...estimation.settings import Settings
 from ...estimation.unit_estimator import KnownLoad, UnitEstimator
-from ...physics import Equilibrium, JointDesign, Load
+from ...physics import Equilibrium, JointDesign, Load, TensionError
 from ...physics.admissible import check_bend_angle
 from ...physics.batch import solve_batch
 from ...physics.tensions import MAX_TENSION
@@ -21,7 +21,7 @@ from ...tensions.reason import ReadingError, Reason
 from ...tensions.watch import PairWatch
 from ..progress import Progress, unseen
 from ..reading.columns import READINGS
-from ..recording import Floats, Recording
+from ..recording import OF_LOAD, Floats, Recording
 from ..scaling import worse_reasons
 
 CHUNK = 20_000
@@ -34,6 +34,8 @@ class Replay(NamedTuple):
     """What the model says of each sample; arrays of shape ``(n,)``, NaN where not determined."""
 
     recording: Recording
+    load: Load
+    """What acts beside the cables, as far as it was not recorded"""
     estimation: str
     regime: NDArray[np.str_]
     bend_angle: Floats
@@ -70,6 +72,7 @@ class Replay(NamedTuple):
                 *zip(READINGS, recorded.readings or (None, None), strict=True),
                 ('bend_angle', recorded.bend_angle),
                 ('pressure', recorded.pressure),
+                *((name, getattr(recorded, name)) for name in OF_LOAD),
                 ('state', None if recorded.state is None else np.array(recorded.state)),
             )
             if values is not None
@@ -108,7 +111,7 @@ def replay(
         How the unit is measured and what is believed; the design of it is not looked at. What
         follows changes it, where it is given.
     load : Load
-        What acts beside the cables.
+        What acts beside the cables; what was recorded of it comes first.
     initial_bend_angle : float
         Where a tracked unit is at first, in rad.
     tension_stddev : float
@@ -122,27 +125,28 @@ def replay(
         If the initial angle is not a number or lies beyond the stop.
     RecordingError
         If a unit is to be tracked through a recording in which time goes back.
-    ValueError
+    TensionError
         If the deviation is not finite and above 0.
     """
     settings = settings or Settings(design)
     load = load or settings.load
     stddev = settings.tension_stddev if tension_stddev is None else tension_stddev
     if not 0.0 < stddev < math.inf:
-        raise ValueError(f'tension_stddev is {stddev!r} N, allowed is a finite number above 0')
+        raise TensionError(f'tension_stddev is {stddev!r} N, allowed is a finite number above 0')
     angle = settings.initial_bend_angle if initial_bend_angle is None else initial_bend_angle
     check_bend_angle(design, angle)
     settings = dataclasses.replace(
         settings, design=design, tension_stddev=stddev, initial_bend_angle=angle
     )
     samples = _Samples(recording, settings)
+    loads = recording.loads(load)
     starts = progress(range(0, len(recording), CHUNK), 'solving')
     if estimation == 'equilibrium':
-        parts = [_solved(samples, load, start) for start in starts]
+        parts = [_solved(samples, loads, start) for start in starts]
     else:
         recording.in_order()
         unit = UnitEstimator(settings, estimation)
-        parts = [_tracked(unit, samples, load, start) for start in starts]
+        parts = [_tracked(unit, samples, loads, start) for start in starts]
     regime, numbers, assured = zip(*parts, strict=True)
     angles, angle_stddev, pressure, pressure_stddev, margin = np.concatenate(numbers, axis=1)
     regimes = np.concatenate(regime)
@@ -152,6 +156,7 @@ def replay(
     ]
     return Replay(
         recording,
+        load,
         estimation,
         regimes,
         angles,
@@ -224,29 +229,31 @@ _Part = tuple[NDArray[np.str_], Floats, NDArray[np.bool_]]
 """Regimes, the five numbers of each sample in rows, and whether the angle is assured"""
 
 
-def _solved(samples: _Samples, load: Load, start: int) -> _Part:
-    settings = samples.settings
-    pairs = np.array([samples.judged(place) for place in samples.part(start)])
+def _solved(samples: _Samples, loads: Load | list[Load], start: int) -> _Part:
+    settings, part = samples.settings, samples.part(start)
+    pairs = np.array([samples.judged(place) for place in part])
     tension_l, tension_s = pairs.reshape(-1, 2).T
-    answers = solve_batch(settings.design, tension_l, tension_s, load)
-    side = np.where(answers.bend_angle < 0.0, -1.0, 1.0)
+    of_part = loads if isinstance(loads, Load) else loads[part.start : part.stop]
+    answers = solve_batch(settings.design, tension_l, tension_s, of_part)
     numbers = np.stack(
         [
             answers.bend_angle,
             answers.bend_angle_stddev(settings.tension_stddev),
             answers.pressure,
             answers.pressure_stddev(settings.tension_stddev),
-            side * (1.0 + answers.residual / answers.normal_force),
+            answers.slip_margin,
         ]
     )
-    return answers.regime_names, numbers, np.full(len(side), True)
+    return answers.regime_names, numbers, np.full(answers.regime.shape, True)
 
 
-def _tracked(unit: UnitEstimator, samples: _Samples, load: Load, start: int) -> _Part:
+def _tracked(
+    unit: UnitEstimator, samples: _Samples, loads: Load | list[Load], start: int
+) -> _Part:
     regimes, rows, assured = [], [], []
-    known = KnownLoad(load)
     stddev = samples.settings.tension_stddev
     for place in samples.part(start):
+        known = KnownLoad(loads if isinstance(loads, Load) else loads[place])
         now, measured = samples.times[place]
         fault = samples.faults[place]
         try:
