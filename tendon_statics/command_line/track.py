@@ -37,6 +37,7 @@ def run(options: argparse.Namespace) -> int:
         unit.design,
         recording,
         'tracking',
+        settings=unit.settings,
         load=recorded_load(options, unit, recording),
         initial_bend_angle=initial_bend_angle_from(options, unit),
         progress=with_progress,

@@ -17,8 +17,8 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Float64, Float64MultiArray, Header
 from tendon_statics_interfaces.msg import Estimate
 
-from tendon_statics.node.estimator import INPUT_DEPTH
-from tendon_statics.node.outputs import OUTPUT_DEPTH
+from tendon_statics.node.inputs.subscriptions import INPUT_DEPTH
+from tendon_statics.node.outputs.publishers import OUTPUT_DEPTH
 from tendon_statics.physics import paper
 
 ESTIMATE = Estimate(
