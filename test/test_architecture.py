@@ -1,104 +1,124 @@
-"""The rooms of the package: who may import whom. Arrows point down, and there is no circle."""
-
-from __future__ import annotations
+"""Who may import whom: rooms import from those below them, and no modules import in a circle."""
 
 import ast
-from collections.abc import Iterator
-from graphlib import CycleError, TopologicalSorter
+import re
 from pathlib import Path
 
 import pytest
+from make_docs import ROOT
 
 import tendon_statics
 
-ROOT = Path(tendon_statics.__file__).resolve().parent
-PACKAGE = 'tendon_statics'
+PACKAGE = Path(tendon_statics.__file__).parent
 
 BELOW = {
-    'physics': (),
-    'tensions': ('physics',),
-    'estimation': ('physics', 'tensions'),
-    'files': ('estimation', 'physics', 'tensions'),
-    'recordings': ('files', 'estimation', 'physics', 'tensions'),
-    'node': ('files', 'estimation', 'physics', 'tensions'),
-    'driver': ('node', 'recordings', 'files', 'physics'),
-    'launching': ('recordings', 'files', 'estimation', 'physics'),
-    'command_line': ('recordings', 'files', 'estimation', 'physics', 'tensions'),
+    'physics': set(),
+    'tensions': {'physics'},
+    'estimation': {'physics', 'tensions'},
+    'files': {'physics', 'tensions', 'estimation'},
+    'recordings': {'physics', 'tensions', 'estimation', 'files'},
+    'launching': {'physics', 'tensions', 'estimation', 'files', 'recordings'},
+    'node': {'physics', 'tensions', 'estimation', 'files', 'recordings'},
+    'driver': {'physics', 'tensions', 'estimation', 'files', 'recordings', 'node'},
+    'command_line': {'physics', 'tensions', 'estimation', 'files', 'recordings'},
 }
-"""Room → those that it may import from, itself aside"""
+"""Room → those from which it may import, as docs/architecture.md shows them"""
 
-WITHOUT_ROS = ('physics', 'tensions', 'estimation', 'files', 'recordings', 'command_line')
-OF_ROS = ('rclpy', 'launch', 'launch_ros')
+ROOMS = sorted(path.parent.name for path in PACKAGE.glob('*/__init__.py'))
 
-MODULES = {
-    '.'.join((PACKAGE, *path.relative_to(ROOT).with_suffix('').parts)).removesuffix(
-        '.__init__'
-    ): path
-    for path in ROOT.rglob('*.py')
+FILES = {
+    '.'.join(path.relative_to(PACKAGE).with_suffix('').parts): path
+    for path in sorted(PACKAGE.rglob('*.py'))
 }
+"""Module, from the package on → its file"""
 
 
-def imported(module: str, *, also_for_types: bool) -> Iterator[str]:
-    """Full names of the modules that a module imports, anywhere in it."""
-    path = MODULES[module]
-    parent = module if path.name == '__init__.py' else module.rpartition('.')[0]
+def imports(module, *, at_once=False):
+    """Names of what a module imports, with dots for the package's own; `at_once` when loaded."""
+    path = FILES[module]
+    package = ('', *path.relative_to(PACKAGE).parts[:-1])
     tree = ast.parse(path.read_text(encoding='utf-8'))
-    for_types = {
-        id(node)
-        for block in ast.walk(tree)
-        if isinstance(block, ast.If) and 'TYPE_CHECKING' in ast.dump(block.test)
-        for node in ast.walk(block)
-    }
-    for node in ast.walk(tree):
-        if id(node) in for_types and not also_for_types:
-            continue
+    for node in top_level(tree) if at_once else ast.walk(tree):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and not node.level:
+            yield node.module
         elif isinstance(node, ast.ImportFrom):
-            base = node.module or ''
-            if node.level:
-                above = '.'.join(parent.split('.')[: len(parent.split('.')) - node.level + 1])
-                base = f'{above}.{base}'.rstrip('.')
-            for alias in node.names:
-                name = f'{base}.{alias.name}'
-                yield name if name in MODULES else base
+            parts = package[: len(package) - node.level + 1]
+            parts += tuple(node.module.split('.')) if node.module else ()
+            yield from ('.'.join((*parts, alias.name)) for alias in node.names)
 
 
-def room_of(module: str) -> str:
-    parts = module.split('.')
-    return parts[1] if parts[0] == PACKAGE and len(parts) > 1 else ''
+def top_level(tree):
+    """Statements that run when a module is loaded: not in functions, nor for types alone."""
+    for node in tree.body:
+        if isinstance(node, ast.If) and 'TYPE_CHECKING' in ast.dump(node.test):
+            continue
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            continue
+        yield from ast.walk(node)
 
 
-def test_the_rooms_are_those_that_there_are():
-    assert {room_of(module) for module in MODULES} - {''} == set(BELOW)
-    assert [path.name for path in ROOT.glob('*.py')] == ['__init__.py']
+def module_of(name):
+    """The module of the package that an imported name is, or is in."""
+    name = name.removeprefix('.')
+    while name and name not in FILES and f'{name}.__init__' not in FILES:
+        name = name.rpartition('.')[0]
+    return name if name in FILES else f'{name}.__init__' if name else '__init__'
 
 
-@pytest.mark.parametrize('room', BELOW)
-def test_a_room_imports_only_from_those_below(room):
-    for module in MODULES:
-        if room_of(module) == room:
-            rooms = {room_of(name) for name in imported(module, also_for_types=True)}
-            assert rooms - {'', room} <= set(BELOW[room]), module
+@pytest.mark.parametrize('room', ROOMS)
+def test_a_room_imports_only_from_those_below_it(room):
+    for module in FILES:
+        if not module.startswith(f'{room}.'):
+            continue
+        for name in imports(module):
+            if name.startswith('.'):
+                other = name.split('.')[1]
+                assert other in BELOW[room] | {room} or other not in ROOMS, f'{module}: {name}'
 
 
-def test_there_is_no_circle_of_modules():
+def test_no_modules_import_each_other_in_a_circle():
     graph = {
-        module: {name for name in imported(module, also_for_types=False) if name in MODULES}
-        for module in MODULES
-        if module != PACKAGE
+        module: {module_of(name) for name in imports(module, at_once=True) if name.startswith('.')}
+        - {module}
+        for module in FILES
     }
-    try:
-        TopologicalSorter(graph).prepare()
-    except CycleError as error:
-        raise AssertionError(' → '.join(error.args[1])) from None
+    done, on_the_way = set(), []
+
+    def visit(module):
+        assert module not in on_the_way, ' → '.join([*on_the_way, module])
+        if module in done:
+            return
+        on_the_way.append(module)
+        for other in sorted(graph[module]):
+            visit(other)
+        done.add(on_the_way.pop())
+
+    for module in graph:
+        visit(module)
 
 
-@pytest.mark.parametrize('room', WITHOUT_ROS)
-def test_what_needs_no_ros_imports_none(room):
-    for module in MODULES:
-        if room_of(module) == room:
-            tops = {name.split('.')[0] for name in imported(module, also_for_types=False)}
-            messages = {top for top in tops if top.endswith('_msgs')}
-            assert not tops & set(OF_ROS), module
-            assert not messages, module
+def test_ros_is_imported_where_it_belongs():
+    for module in FILES:
+        if module.startswith(('node.', 'driver.', 'launching.')):
+            continue
+        for name in imports(module):
+            assert name.split('.')[0] not in ('rclpy', 'launch', 'launch_ros'), f'{module}: {name}'
+
+
+def test_the_page_on_the_architecture_names_every_room():
+    text = (ROOT / 'docs/architecture.md').read_text(encoding='utf-8')
+    assert set(ROOMS) <= set(BELOW)
+    for room in ROOMS:
+        assert f'| `{room}/` |' in text
+
+
+def test_the_page_names_every_file_of_the_physics():
+    text = (ROOT / 'docs/architecture.md').read_text(encoding='utf-8')
+    section = text[text.index('## The physics') : text.index('## The way of one message')]
+    folder = PACKAGE / 'physics'
+    there = {path.name for path in folder.glob('*.py')} - {'__init__.py'}
+    there |= {f'{path.parent.name}/' for path in folder.glob('*/__init__.py')}
+    named = set(re.findall(r'`(\w+(?:\.py|/))`', section)) - {'law.py'}
+    assert named == there

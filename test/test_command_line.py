@@ -245,19 +245,3 @@ def test_the_physics_needs_neither_ros_nor_files_nor_the_command_line():
         'assert not [n for n in ours if ".node" in n or ".command_line" in n], ours\n'
     )
     subprocess.run([sys.executable, '-c', code], check=True, timeout=60)
-
-
-@pytest.mark.parametrize(
-    ('room', 'others'), [('node', ['command_line']), ('command_line', ['node', 'rclpy'])]
-)
-def test_node_and_command_line_do_not_import_each_other(room, others):
-    import tendon_statics
-
-    for path in Path(tendon_statics.__file__).parent.joinpath(room).rglob('*.py'):
-        imports = [
-            line
-            for line in path.read_text(encoding='utf-8').splitlines()
-            if line.strip().startswith(('import ', 'from '))
-        ]
-        for line in imports:
-            assert not any(other in line for other in others), f'{path}: {line}'

@@ -166,9 +166,9 @@ class Slip:
         self.excess, self._tensions = excess, (tension_l, tension_s)
         self._cosine, self._sine = numbers.cosine, numbers.sine
         self.share = share = size / total
-        spare = excess / total
+        excess_share = excess / total
         self.tilt = tilt = cosine, side * sine
-        self.law = law.under((share, spare, spare * (1.0 + share)), tilt, numbers)
+        self.law = law.under((share, excess_share, excess_share * (1.0 + share)), tilt, numbers)
         # M / (r T) by parts
         self._offset = side * (tension_s - tension_l) / total * lever
         self._of_cosine = side * moment_x / total

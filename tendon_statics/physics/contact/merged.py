@@ -77,12 +77,12 @@ class LoadedMergedLaw(LoadedLaw):
         share, excess, product = self._share, self._excess, self._product
         # 1 − μ sin φ from 1 − sin φ = [cos² φ + (1 − sin φ)²] / 2, which does not cancel.
         below_one = 1.0 - sin_phi
-        spare = self._less + self._half * (cos_phi * cos_phi + below_one * below_one)
-        b = excess + share * spare
-        lift = spare - excess
+        one_less = self._less + self._half * (cos_phi * cos_phi + below_one * below_one)
+        b = excess + share * one_less
+        load_less = one_less - excess
         friction = self._friction
-        slide = friction * cos_phi
-        root = self._square_root(lift * lift + product * slide * slide)
+        across = friction * cos_phi
+        root = self._square_root(load_less * load_less + product * across * across)
         larger = abs(b) + root
         normal = product / larger
         if self._may_cancel:  # where B < 0, and the other form of the same root does not
@@ -113,22 +113,22 @@ class LoadedMergedLaw(LoadedLaw):
         capacity, _, sin_phi, _, steepness = state
         return (capacity * sin_phi - self._share) * steepness
 
-    def _lifted(self, sin_phi: Any, moment: Any) -> tuple[Any, Any]:
+    def _normal_and_gap(self, sin_phi: Any, moment: Any) -> tuple[Any, Any]:
         """Return n and (T − N) / T that Eqs. (1) and (2) ask for with the friction F = M / r."""
         share = self._share
         square = moment * moment + share * share - 2.0 * share * moment * sin_phi
-        lift = self._square_root(abs(square))
-        # 1 − lift, without loss of digits where it is small.
-        return (self._product + moment * (2.0 * share * sin_phi - moment)) / (1.0 + lift), lift
+        gap = self._square_root(abs(square))
+        # 1 − gap, without loss of digits where it is small.
+        return (self._product + moment * (2.0 * share * sin_phi - moment)) / (1.0 + gap), gap
 
     def normal(self, state: State, moment: Any) -> Any:
-        return self._lifted(state[2], moment)[0]
+        return self._normal_and_gap(state[2], moment)[0]
 
     def normal_slopes(self, state: State, moment: Any) -> NormalSlopes:
         _, _, sin_phi, cos_phi, _ = state
         share = self._share
-        normal, lift = self._lifted(sin_phi, moment)
-        divisor = lift + LEAST
+        normal, gap = self._normal_and_gap(sin_phi, moment)
+        divisor = gap + LEAST
         return (
             normal,
             (moment * sin_phi - share) / divisor,
