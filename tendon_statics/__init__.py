@@ -31,6 +31,7 @@ if TYPE_CHECKING:
         LoadError,
         Regime,
         StickSlipTracker,
+        TendonStaticsError,
         TensionError,
         TensionGradient,
         Tensions,
@@ -49,10 +50,13 @@ if TYPE_CHECKING:
     from .recordings.errors import RecordingError
     from .recordings.motion import mark_motion
     from .recordings.reading.load import load_recording
+    from .recordings.reading.table_options import TableOptions
+    from .recordings.reading.topics import BagTopics
     from .recordings.recording import Recording
 
 __all__ = [
     'UPRIGHT',
+    'BagTopics',
     'BendAngleError',
     'Calibration',
     'CalibrationError',
@@ -70,6 +74,8 @@ __all__ = [
     'RecordingError',
     'Regime',
     'StickSlipTracker',
+    'TableOptions',
+    'TendonStaticsError',
     'TensionError',
     'TensionGradient',
     'Tensions',
@@ -93,6 +99,8 @@ __all__ = [
 ]
 
 _NOT_OF_PHYSICS = {
+    'BagTopics': '.recordings.reading.topics',
+    'TableOptions': '.recordings.reading.table_options',
     'Recording': '.recordings.recording',
     'RecordingError': '.recordings.errors',
     'default_design_path': '.files.design_file',

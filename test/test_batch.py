@@ -7,6 +7,7 @@ import subprocess
 import sys
 from dataclasses import replace
 
+import brute
 import numpy as np
 import pytest
 from designs import PRELIMINARY, random_cases, random_design, random_tensions, tensions_at_slip
@@ -336,3 +337,14 @@ def test_numpy_is_loaded_only_for_a_batch():
         'assert "numpy" in sys.modules\n'
     )
     subprocess.run([sys.executable, '-c', code], check=True, timeout=60)
+
+
+def test_margins_are_those_of_solve_under_every_law():
+    draw = random.Random(9)
+    for case in [brute.random_case(draw) for _ in range(60)]:
+        answers = solve_batch(case.design, [case.tension_l], [case.tension_s], case.load)
+        expected = solve(case.design, case.tension_l, case.tension_s, case.load).slip_margin
+        if expected is None:
+            assert math.isnan(answers.slip_margin[0])
+        else:
+            assert answers.slip_margin[0] == pytest.approx(expected, rel=1e-9)

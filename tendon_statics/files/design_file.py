@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -123,17 +124,14 @@ def save_design(
     OutputError
         If the file cannot be written; what was there then stays.
     """
-    import json  # Here, for who only solves should not wait for it.
-
     lines = [f'# {line}'.rstrip() for line in comment.splitlines()]
     lines += ['/**:', '  ros__parameters:']
     others = dict(parameters or {})
     if uncertainty is not None:
         others[_UNCERTAIN] = list(uncertainty.parameters)
         others[_COVARIANCE] = uncertainty.flat
-    # JSON is YAML, but for numbers such as 1e-05, which ROS takes as Python writes them.
     lines += [
-        f'    {name}: {json.dumps(value, ensure_ascii=False)}'
+        f'    {name}: {_yaml(value)}'
         for name, value in others.items()
         if not name.startswith(_PREFIX)
     ]
@@ -157,6 +155,17 @@ def default_design_path() -> Path:
         If the package was copied without its data files.
     """
     return installed_config('preliminary_design.yaml')
+
+
+def _yaml(value: object) -> str:
+    """Write a parameter's value in one line as ROS reads it: as JSON, but for what that lacks."""
+    import json  # Here, for who only solves should not wait for it.
+
+    if isinstance(value, list):
+        return f'[{", ".join(map(_yaml, value))}]'
+    if isinstance(value, float) and not math.isfinite(value):
+        return '.nan' if math.isnan(value) else f'{"-" * (value < 0.0)}.inf'
+    return json.dumps(value, ensure_ascii=False)
 
 
 def _designs(content: object) -> dict[str, dict[str, object]]:

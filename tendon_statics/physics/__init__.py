@@ -17,6 +17,7 @@ from .errors import (
     CalibrationError,
     DesignError,
     LoadError,
+    TendonStaticsError,
     TensionError,
     UnreachableError,
 )
@@ -54,6 +55,7 @@ __all__ = [
     'LoadError',
     'Regime',
     'StickSlipTracker',
+    'TendonStaticsError',
     'TensionError',
     'TensionGradient',
     'Tensions',

@@ -93,6 +93,12 @@ class Load:
         x, _, z = self.gravity_direction
         return math.atan2(x, -z)
 
+    def mirrored(self) -> Load:
+        """Return the load of the mirror image, with the cables' sides swapped."""
+        x, y, z = self.gravity_direction
+        force_x, force_z = self.tip_force
+        return Load((-x, y, z), (-force_x, force_z), self.tip_distance)
+
     def on(self, design: JointDesign) -> DeadLoad:
         """Return the forces and moments that it means for one unit."""
         weight, lever = design.weight, design.com_distance

@@ -7,8 +7,10 @@ from collections.abc import Sequence
 from statistics import fmean, stdev
 from typing import NamedTuple
 
+from ..physics.errors import TendonStaticsError
+
 FEWEST = 20
-"""Readings of a cable of which a mean and its scatter are told"""
+"""Readings of a cable that are enough for a mean and its scatter"""
 
 STILL = 3.0
 """Standard deviations of the stated noise within which a slack cable's readings scatter, and
@@ -17,7 +19,7 @@ halves of them differ"""
 NAMES = ('cable_l', 'cable_s')
 
 
-class TareError(ValueError):
+class TareError(TendonStaticsError, ValueError):
     """Readings from which no bias can be told; the text is for the user."""
 
 
@@ -39,6 +41,15 @@ class CableTare(NamedTuple):
     def bias(self) -> float:
         """Bias in N with which the mean is 0."""
         return self.old_bias - self.mean
+
+    def doubt(self, weight: float) -> str:
+        """Say that the cable may have been taut, if it read more than the unit's weight in N."""
+        if not abs(self.mean) > weight:
+            return ''
+        return (
+            f'{self.cable} read {self.mean:.4g} N, more than the weight of the unit: if it was '
+            'taut, this bias is wrong'
+        )
 
 
 def tare(

@@ -111,9 +111,15 @@ def estimate(tension_l: float, tension_s: float, time: float) -> Any:
     """An ``Estimate`` with nothing in it but the tensions."""
     _, fields = STORE.fielddefs[ESTIMATE]
     values: dict[str, Any] = {name: 0.0 for name, _ in fields}
-    values |= dict.fromkeys(('angle_assured', 'stable', 'branch_consistent'), False)
+    truths = ('angle_assured', 'load_assured', 'stable', 'branch_consistent')
+    values |= dict.fromkeys(truths, False)
     values |= dict.fromkeys(('root_count', 'iterations'), 0)
-    values |= {'header': header(time), 'regime': '', 'admissible_angles': np.array([])}
+    values |= {
+        'header': header(time),
+        'regime': '',
+        'contact_law': '',
+        'admissible_angles': np.array([]),
+    }
     values |= {'tension_l': tension_l, 'tension_s': tension_s}
     return STORE.types[ESTIMATE](**values)
 

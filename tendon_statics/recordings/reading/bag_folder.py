@@ -52,6 +52,11 @@ def bag_folder(folder: Path) -> BagFolder:
         bag = _by_manifest(folder, manifest, there)
     elif len(there) > 1:
         bag.notes.append(f'there is no {METADATA}: its files are taken by the numbers in them')
+    if not bag.files and there:
+        raise RecordingError(
+            f'{bag.damage[0]}, and so is all else that it lists; to read one of '
+            f'{", ".join(path.name for path in there)} all the same, name the file itself'
+        )
     if not bag.files:
         why = f'; {bag.damage[0]}' if bag.damage else ''
         raise RecordingError(
@@ -69,6 +74,9 @@ def _by_manifest(folder: Path, manifest: Path, there: list[Path]) -> BagFolder:
     except (YamlFileError, KeyError, TypeError, AttributeError) as error:
         why = str(error) if isinstance(error, YamlFileError) else 'it is not that of a bag'
         text = f'{METADATA}: {why}; the files are taken by the numbers in them'
+        return BagFolder(there, damage=[text])
+    if not names:  # as left by a recorder that was killed
+        text = f'{METADATA} lists no files; they are taken by the numbers in them'
         return BagFolder(there, damage=[text])
     bag = BagFolder([], counts)
     for name in names:
@@ -103,8 +111,8 @@ def _counts(content: Mapping[str, Any]) -> dict[str, int]:
 def _found(folder: Path, name: str) -> Path | None:
     """Return a file of the folder that the manifest lists, packed or unpacked since.
 
-    Early versions wrote the folder's own name before that of the file. A file elsewhere is none
-    of the bag's.
+    Early versions wrote the folder's own name before that of the file. A file elsewhere is not
+    part of the bag.
     """
     listed = folder / PurePosixPath(name).name
     bare = _without_compression(listed)

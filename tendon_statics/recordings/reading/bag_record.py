@@ -1,4 +1,4 @@
-"""A message as it stands in a bag's file, whatever the kind of that."""
+"""A message as it stands in the file of a bag, whatever the format."""
 
 from __future__ import annotations
 
@@ -9,6 +9,12 @@ PURPOSE = 'ROS bags'
 UNKNOWN_TYPE = 'message of unknown type'
 
 CDR, ROS1 = 'cdr', 'ros1'
+
+
+def type_name(name: str) -> str:
+    """Return a type's name as ROS 2 writes it: ROS 1 leaves out what kind of interface it is."""
+    package, _, last = name.partition('/')
+    return f'{package}/msg/{last}' if last and '/' not in last else name
 
 
 class Record(NamedTuple):

@@ -15,7 +15,7 @@ from .text_lines import Line, TextForm, separator_name, split
 from .units import UNITS, split_title
 
 COMMENTS = ('#', '%')
-"""What a line begins with that is left alone, unless it has the titles"""
+"""How a line begins that is ignored, unless it has the titles"""
 
 LOOKED_AT = 100
 """Rows that tell how numbers are written"""
@@ -90,14 +90,14 @@ def _titles(
     before = [line for line in comments if not rows or line[0] < rows[0][0]]
     candidates += [(line, 0) for line in before[-1:]]
     separators = [options.separator] if options.separator else [*SEPARATORS.values()]
-    failures: list[RecordingError] = []
+    failures: list[tuple[int, RecordingError]] = []
     for (number, line), taken in candidates:
         for separator in separators:
             titles = _header(number, line, separator, as_comment=not taken)
             try:
                 find_columns(titles, options)
             except RecordingError as error:
-                failures.append(error)
+                failures.append((sum(map(_is_title, titles)), error))
             else:
                 return separator, titles, taken
     if not failures:
@@ -105,10 +105,20 @@ def _titles(
     for number, line in rows[1:LOOKED_AT]:
         if any(_has_tensions(number, line, separator, options) for separator in separators):
             raise RecordingError(
-                f'{failures[0]}; line {number} has them: --skip-rows {number - 1}'
+                f'{failures[0][1]}; line {number} has them: --skip-rows {number - 1}'
             )
-    # What is wrong with the tensions that were found, rather than that there are none.
-    raise next((error for error in failures if 'no column' not in str(error)), failures[0])
+    # What is wrong with the tensions that were found, rather than that there are none; else what
+    # there is by the separator that makes most titles.
+    of_found = [error for _, error in failures if 'no column' not in str(error)]
+    raise of_found[0] if of_found else max(failures, key=lambda failure: failure[0])[1]
+
+
+def _is_title(text: str) -> bool:
+    try:
+        float(text.replace(',', '.'))
+    except ValueError:
+        return bool(text)
+    return False
 
 
 def _has_tensions(number: int, line: bytes, separator: str, options: TableOptions) -> bool:
@@ -177,8 +187,13 @@ def _decimal(
     places = [column.place for column in columns.numbers.values()]
     if columns.time is not None:
         places.append(columns.time.place)
-    with_comma = with_point = longer = 0
-    for _, line in rows[:LOOKED_AT]:
+    with_comma = with_point = looked_at = longer = 0
+    for _, line in rows:
+        if with_comma + with_point + (separator == ',') * looked_at >= LOOKED_AT:
+            break
+        if separator != ',' and b',' not in line and b'.' not in line:
+            continue  # whole numbers, which tell nothing
+        looked_at += 1
         try:
             fields = split(line, separator)
         except (ValueError, csv.Error):
@@ -187,7 +202,7 @@ def _decimal(
         values = [fields[place] for place in places if place < len(fields)]
         with_comma += any(_DECIMAL_COMMA.fullmatch(value) is not None for value in values)
         with_point += any(_DECIMAL_POINT.fullmatch(value) is not None for value in values)
-    if separator == ',' and longer and longer == len(rows[:LOOKED_AT]):
+    if separator == ',' and longer and longer == looked_at:
         raise RecordingError(
             'commas separate both its columns and its decimals, and cannot be told apart: '
             'write it with semicolons or tabs'

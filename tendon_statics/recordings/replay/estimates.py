@@ -3,38 +3,28 @@
 from __future__ import annotations
 
 import dataclasses
-import itertools
 import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics import (
-    UPRIGHT,
-    Equilibrium,
-    JointDesign,
-    Load,
-    StickSlipTracker,
-    TensionError,
-)
+from ...estimation.regimes import INVALID
+from ...estimation.settings import Settings
+from ...estimation.unit_estimator import KnownLoad, UnitEstimator
+from ...physics import Equilibrium, JointDesign, Load, TensionError
 from ...physics.admissible import check_bend_angle
 from ...physics.batch import solve_batch
-from ...physics.tensions import MAX_TENSION
-from ...tensions.cable_scale import CableScale, scaled_arrays
-from ...tensions.reason import Reason
+from ...tensions.reason import ReadingError, Reason
 from ..progress import Progress, unseen
 from ..reading.columns import READINGS
 from ..recording import OF_LOAD, Floats, Recording
-from ..scaling import usable, worse_reasons
+from ..samples import Samples
 
 CHUNK = 20_000
 """Samples solved at once, after which progress is shown"""
 
 VALID = 'valid'
-
-INVALID = 'invalid'
-"""Regime of a sample that the model does not take"""
 
 
 class Replay(NamedTuple):
@@ -42,7 +32,7 @@ class Replay(NamedTuple):
 
     recording: Recording
     load: Load
-    """What of that which acts beside the cables was not recorded"""
+    """What acts beside the cables, as far as it was not recorded"""
     estimation: str
     regime: NDArray[np.str_]
     bend_angle: Floats
@@ -53,7 +43,7 @@ class Replay(NamedTuple):
     pressure_stddev: Floats
     slip_margin: Floats
     angle_assured: NDArray[np.bool_]
-    """False where a cable has been slack, until a stop: a tracked unit may have moved"""
+    """False after what cannot vouch for a tracked unit, such as a slack cable, until a stop"""
     validity: NDArray[np.str_]
     """``valid``, or why a sample is not, in the node's words (`Reason`)"""
 
@@ -101,18 +91,22 @@ def replay(
     recording: Recording,
     estimation: str = 'equilibrium',
     *,
-    load: Load = UPRIGHT,
-    initial_bend_angle: float = 0.0,
-    tension_stddev: float = 0.01,
+    settings: Settings | None = None,
+    load: Load | None = None,
+    initial_bend_angle: float | None = None,
+    tension_stddev: float | None = None,
     progress: Progress = unseen,
 ) -> Replay:
-    """Estimate every sample of a recording.
+    """Estimate every sample of a recording, as the node does with the same settings.
 
     Parameters
     ----------
     estimation : str
         ``equilibrium``: each sample by itself, as `solve` does; ``tracking``: with the memory of a
         `StickSlipTracker`.
+    settings : Settings
+        How the unit is measured and what is believed; the design of it is not looked at. What
+        follows changes it, where it is given.
     load : Load
         What acts beside the cables; what was recorded of it comes first.
     initial_bend_angle : float
@@ -128,106 +122,97 @@ def replay(
         If the initial angle is not a number or lies beyond the stop.
     RecordingError
         If a unit is to be tracked through a recording in which time goes back.
-    ValueError
+    TensionError
         If the deviation is not finite and above 0.
     """
-    if not 0.0 < tension_stddev < math.inf:
-        raise ValueError(
-            f'tension_stddev is {tension_stddev!r} N, allowed is a finite number above 0'
-        )
-    check_bend_angle(design, initial_bend_angle)
-    faults = _faults(recording)
-    given = recording
-    recording = usable(dataclasses.replace(recording, faults=faults))
+    settings = settings or Settings(design)
+    load = load or settings.load
+    stddev = settings.tension_stddev if tension_stddev is None else tension_stddev
+    if not 0.0 < stddev < math.inf:
+        raise TensionError(f'tension_stddev is {stddev!r} N, allowed is a finite number above 0')
+    angle = settings.initial_bend_angle if initial_bend_angle is None else initial_bend_angle
+    check_bend_angle(design, angle)
+    settings = dataclasses.replace(
+        settings, design=design, tension_stddev=stddev, initial_bend_angle=angle
+    )
+    samples = Samples(recording, settings)
     loads = recording.loads(load)
     starts = progress(range(0, len(recording), CHUNK), 'solving')
     if estimation == 'equilibrium':
-        parts = [_solved(design, recording, loads, start, tension_stddev) for start in starts]
+        parts = [_solved(samples, loads, start) for start in starts]
     else:
         recording.in_order()
-        tracker = StickSlipTracker(design, initial_bend_angle)
-        parts = [_tracked(tracker, recording, loads, start, tension_stddev) for start in starts]
+        unit = UnitEstimator(settings, estimation)
+        parts = [_tracked(unit, samples, loads, start) for start in starts]
     regime, numbers, assured = zip(*parts, strict=True)
-    angle, angle_stddev, pressure, pressure_stddev, margin = np.concatenate(numbers, axis=1)
+    angles, angle_stddev, pressure, pressure_stddev, margin = np.concatenate(numbers, axis=1)
     regimes = np.concatenate(regime)
-    faults = [
+    validity = [
         fault or (Reason.BELOW_WEIGHT.value if name == INVALID else VALID)
-        for fault, name in zip(faults, regimes.tolist(), strict=True)
+        for fault, name in zip(samples.faults, regimes.tolist(), strict=True)
     ]
     return Replay(
-        given,
+        recording,
         load,
         estimation,
         regimes,
-        angle,
+        angles,
         angle_stddev,
         pressure,
         pressure_stddev,
         margin,
         np.concatenate(assured),
-        np.array(faults, dtype=np.str_),
+        np.array(validity, dtype=np.str_),
     )
 
 
-def _faults(recording: Recording) -> list[str]:
-    """Why each sample is no pair of tensions, as far as that is seen without a design."""
-    limits = CableScale(max_tension=MAX_TENSION)
-    found = worse_reasons(
-        *(scaled_arrays(of, limits)[1] for of in (recording.tension_l, recording.tension_s))
-    )
-    known = recording.known_faults
-    return [before or now for before, now in zip(known, found.tolist(), strict=True)]
+def _part(samples: Samples, start: int) -> range:
+    """Return the places of those that are solved at once."""
+    return range(start, min(start + CHUNK, len(samples.tensions)))
 
 
 _Part = tuple[NDArray[np.str_], Floats, NDArray[np.bool_]]
 """Regimes, the five numbers of each sample in rows, and whether the angle is assured"""
 
 
-def _solved(
-    design: JointDesign,
-    recording: Recording,
-    loads: Load | list[Load],
-    start: int,
-    tension_stddev: float,
-) -> _Part:
-    part = slice(start, start + CHUNK)
-    of_part = loads if isinstance(loads, Load) else loads[part]
-    answers = solve_batch(design, recording.tension_l[part], recording.tension_s[part], of_part)
+def _solved(samples: Samples, loads: Load | list[Load], start: int) -> _Part:
+    settings, part = samples.settings, _part(samples, start)
+    pairs = np.array([samples.judged(place) for place in part])
+    tension_l, tension_s = pairs.reshape(-1, 2).T
+    of_part = loads if isinstance(loads, Load) else loads[part.start : part.stop]
+    answers = solve_batch(settings.design, tension_l, tension_s, of_part)
     numbers = np.stack(
         [
             answers.bend_angle,
-            answers.bend_angle_stddev(tension_stddev),
+            answers.bend_angle_stddev(settings.tension_stddev),
             answers.pressure,
-            answers.pressure_stddev(tension_stddev),
+            answers.pressure_stddev(settings.tension_stddev),
             answers.slip_margin,
         ]
     )
     return answers.regime_names, numbers, np.full(answers.regime.shape, True)
 
 
-def _tracked(
-    tracker: StickSlipTracker,
-    recording: Recording,
-    loads: Load | list[Load],
-    start: int,
-    tension_stddev: float,
-) -> _Part:
+def _tracked(unit: UnitEstimator, samples: Samples, loads: Load | list[Load], start: int) -> _Part:
     regimes, rows, assured = [], [], []
-    part = slice(start, start + CHUNK)
-    pairs = zip(
-        recording.tension_l[part].tolist(), recording.tension_s[part].tolist(), strict=True
-    )
-    of_part = itertools.repeat(loads) if isinstance(loads, Load) else loads[part]
-    for tensions, load in zip(pairs, of_part, strict=False):
+    stddev = samples.settings.tension_stddev
+    for place in _part(samples, start):
+        known = KnownLoad(loads if isinstance(loads, Load) else loads[place])
+        now, measured = samples.times[place]
+        fault = samples.faults[place]
         try:
-            state = tracker.update(*tensions, load)
-        except TensionError:
+            if fault:
+                unit.drop(Reason(fault), fault)
+                raise ReadingError(Reason(fault), fault)
+            state = unit.take_tensions(*samples.tensions[place], known, now, measured)
+        except ReadingError as error:
+            samples.faults[place] = error.reason.value
             regimes.append(INVALID)
             rows.append((math.nan,) * 5)
             assured.append(False)
             continue
         regimes.append(state.regime.value)
-        rows.append((*_estimates(state, tension_stddev), _number(state.slip_margin)))
+        rows.append((*_estimates(state, stddev), _number(state.slip_margin)))
         assured.append(state.angle_assured)
     return np.array(regimes), np.array(rows).reshape(-1, 5).T, np.array(assured)
 
