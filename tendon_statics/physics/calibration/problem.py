@@ -26,6 +26,9 @@ SCALE_TOLERANCE = 1e-3
 LARGEST_DISTANCE = 1e100
 """In standard deviations; its square must be a number"""
 
+AT_BOUND = 1e-12
+"""Scaled distance from the end of a range within which a value is taken to be there"""
+
 MOST_DESIGNS = 2000
 """Tried in one search, after which it must have ended"""
 
@@ -126,6 +129,8 @@ class Problem:
                 'parameters'
             )
         self.scaled = found.x
+        for bound in self.space.bounds:  # which the search does not quite reach
+            self.scaled = np.where(abs(self.scaled - bound) < AT_BOUND, bound, self.scaled)
 
     def loss(self) -> float:
         """Sum of the losses where the search stands: −2 log of the likelihood, but for a constant.
