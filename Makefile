@@ -24,7 +24,7 @@ demo: setup ## Drive the estimator node over real ROS 2 and print what it publis
 	@$(run) python tools/demo.py
 
 .PHONY: test
-test: setup ## Run all tests (choose with ARGS, say ARGS='-m node')
+test: setup ## Run all tests (ARGS='-m node' chooses; with CI=1 more examples of each property)
 	@$(run) pytest $(ARGS)
 
 # How long to soak.

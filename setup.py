@@ -7,7 +7,7 @@ share = f'share/{package_name}'
 
 setup(
     name=package_name,
-    version='0.1.0',
+    version='0.2.0',
     packages=find_packages(include=[package_name, f'{package_name}.*']),
     package_data={package_name: ['py.typed']},
     data_files=[
@@ -22,7 +22,15 @@ setup(
     install_requires=['setuptools', 'PyYAML', 'numpy>=1.26.4'],
     extras_require={
         'calibration': ['scipy>=1.11.4'],
-        'recordings': ['mcap>=1.1', 'pyarrow>=15', 'rosbags>=0.10.8', 'tqdm>=4.64'],
+        'recordings': [
+            'lz4>=4',
+            'mcap>=1.2.1',
+            'pyarrow>=15',
+            'rosbags>=0.10.8',
+            'tqdm>=4.64',
+            'zstandard>=0.22',
+        ],
+        'matlab': ['pymatreader>=1.0'],
         'plot': ['matplotlib'],
         'test': ['hypothesis', 'mpmath', 'pytest', 'scipy>=1.11.4', 'xacro'],
     },

@@ -7,8 +7,8 @@ from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch_ros.actions import Node
 
+from tendon_statics.files.rig_file import load_rig
 from tendon_statics.launch_actions import as_they_are, robot_state_publisher
-from tendon_statics.rig_file import load_rig
 from tendon_statics.unit_description import unit_description
 
 

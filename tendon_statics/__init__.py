@@ -1,61 +1,125 @@
-"""Bend angle and joint pressure of a tendon-driven unit from its cable tensions."""
+"""Bend angle and joint pressure of a tendon-driven unit from its cable tensions.
 
+All public names are here; each is loaded when it is first asked for, and with it what it needs:
+the standard library alone for the physics of one pair, NumPy for many, SciPy for calibrations.
+"""
+
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from . import physics
-from .design_file import default_design_path, load_design, save_design
-from .physics import (
-    CalibrationError,
-    DesignError,
-    Equilibrium,
-    JointDesign,
-    Regime,
-    TensionError,
-    solve,
-)
-from .recordings.errors import RecordingError
-
 if TYPE_CHECKING:
-    from .physics import Calibration, EquilibriumBatch, calibrate, solve_batch
-    from .recordings.load import load_recording
+    from .files.design_file import (
+        default_design_path,
+        load_design,
+        load_design_uncertainty,
+        save_design,
+    )
+    from .physics import (
+        UPRIGHT,
+        BendAngleError,
+        Calibration,
+        CalibrationError,
+        ContactForces,
+        DesignError,
+        DesignUncertainty,
+        Equilibrium,
+        EquilibriumBatch,
+        ForceRemainder,
+        JointDesign,
+        LawComparison,
+        Load,
+        LoadError,
+        Regime,
+        StickSlipTracker,
+        TendonStaticsError,
+        TensionError,
+        TensionGradient,
+        Tensions,
+        UnreachableError,
+        admissible_angles,
+        calibrate,
+        compare_laws,
+        design_fields,
+        design_parameters,
+        residual,
+        slip_margin,
+        solve,
+        solve_batch,
+        tensions_for,
+    )
+    from .recordings.errors import RecordingError
     from .recordings.motion import mark_motion
+    from .recordings.reading.load import load_recording
+    from .recordings.reading.table_options import TableOptions
+    from .recordings.reading.topics import BagTopics
     from .recordings.recording import Recording
 
 __all__ = [
+    'UPRIGHT',
+    'BagTopics',
+    'BendAngleError',
     'Calibration',
     'CalibrationError',
+    'ContactForces',
     'DesignError',
+    'DesignUncertainty',
     'Equilibrium',
     'EquilibriumBatch',
+    'ForceRemainder',
     'JointDesign',
+    'LawComparison',
+    'Load',
+    'LoadError',
     'Recording',
     'RecordingError',
     'Regime',
+    'StickSlipTracker',
+    'TableOptions',
+    'TendonStaticsError',
     'TensionError',
+    'TensionGradient',
+    'Tensions',
+    'UnreachableError',
+    'admissible_angles',
     'calibrate',
+    'compare_laws',
     'default_design_path',
+    'design_fields',
+    'design_parameters',
     'load_design',
+    'load_design_uncertainty',
     'load_recording',
     'mark_motion',
+    'residual',
     'save_design',
+    'slip_margin',
     'solve',
     'solve_batch',
+    'tensions_for',
 ]
+
+_NOT_OF_PHYSICS = {
+    'BagTopics': '.recordings.reading.topics',
+    'TableOptions': '.recordings.reading.table_options',
+    'Recording': '.recordings.recording',
+    'RecordingError': '.recordings.errors',
+    'default_design_path': '.files.design_file',
+    'load_design': '.files.design_file',
+    'load_design_uncertainty': '.files.design_file',
+    'load_recording': '.recordings.reading.load',
+    'mark_motion': '.recordings.motion',
+    'save_design': '.files.design_file',
+}
+"""Public name → the module that has it; all others are of physics"""
 
 
 def __getattr__(name: str) -> Any:
-    if name in ('Calibration', 'EquilibriumBatch', 'calibrate', 'solve_batch'):
-        return getattr(physics, name)
-    if name == 'load_recording':
-        from .recordings.load import load_recording
+    if name not in __all__:
+        raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
+    value = getattr(import_module(_NOT_OF_PHYSICS.get(name, '.physics'), __name__), name)
+    globals()[name] = value
+    return value
 
-        return load_recording
-    if name == 'mark_motion':
-        from .recordings.motion import mark_motion
 
-        return mark_motion
-    if name == 'Recording':
-        from .recordings.recording import Recording
-
-        return Recording
-    raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

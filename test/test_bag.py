@@ -11,8 +11,8 @@ from bags import ORIGIN, write_bag
 from programs import assert_refused, run
 
 from tendon_statics.recordings.errors import RecordingError
-from tendon_statics.recordings.load import load_recording
-from tendon_statics.recordings.topics import BagTopics
+from tendon_statics.recordings.reading.load import load_recording
+from tendon_statics.recordings.reading.topics import BagTopics
 
 
 def session(count=10):
@@ -203,19 +203,40 @@ def test_a_pair_of_which_one_topic_is_empty_is_refused(tmp_path):
         load_recording(file, BagTopics(('l', 's')))
 
 
+@pytest.fixture(scope='module')
+def long_bag(tmp_path_factory, request):
+    """A file of the kind asked for, and what is in it."""
+    file = write_bag(tmp_path_factory.mktemp('long') / 'bag', session(30000), request.param)
+    return file, load_recording(file)
+
+
 @pytest.mark.parametrize(
-    ('plugin', 'share'),
+    ('long_bag', 'share'),
     [('MCAP', 0.75), ('MCAP', 0.99), ('MCAP', 0.9999), ('SQLITE3', 0.97)],
+    indirect=['long_bag'],
 )
-def test_of_a_truncated_file_the_beginning_is_read(tmp_path, plugin, share):
-    file = write_bag(tmp_path / 'bag', session(30000), plugin)
-    whole = load_recording(file)
+def test_of_a_truncated_file_the_beginning_is_read(tmp_path, long_bag, share):
+    file, whole = long_bag
     content = file.read_bytes()
-    file.write_bytes(content[: int(share * len(content))])
-    recording = load_recording(file)
+    beginning = tmp_path / file.name
+    beginning.write_bytes(content[: int(share * len(content))])
+    recording = load_recording(beginning)
     assert 0.3 * len(whole) < len(recording) <= len(whole)
     assert set(recording.tensions()) <= set(whole.tensions())
     assert 'truncated or damaged' in recording.damage_summary
+
+
+def test_what_is_missing_of_a_torn_page_does_not_come_out_as_zeros(tmp_path):
+    """Only what was recorded is data; 4096 is the size of a page."""
+    file = write_bag(tmp_path / 'bag', session(300), 'SQLITE3')
+    recorded = set(load_recording(file).tensions())
+    content = file.read_bytes()
+    whole = len(content) // 4096 * 4096
+    for size in range(whole - 6 * 4096, whole, 389):
+        file.write_bytes(content[:size])
+        recording = load_recording(file)
+        assert set(recording.tensions()) <= recorded, size
+        assert 'damaged' in recording.damage_summary
 
 
 @pytest.fixture
@@ -424,6 +445,7 @@ def test_what_a_recorder_did_not_finish_is_undone_and_named(tmp_path, database):
 def test_in_a_folder_a_file_that_is_no_bag_is_named_and_the_others_are_read(tmp_path):
     file = write_bag(tmp_path / 'bag', session())
     (file.parent / 'other.mcap').write_bytes(b'')
+    (file.parent / 'metadata.yaml').unlink()
     recording = load_recording(file.parent)
     assert len(recording) == 10
     assert recording.damage == ('other.mcap: it is not an MCAP file',)

@@ -7,7 +7,7 @@ import pytest
 from designs import PRELIMINARY
 
 from tendon_statics import DesignError, JointDesign
-from tendon_statics.physics import design_parameters
+from tendon_statics.physics import design_fields, design_parameters
 
 VALUES = dataclasses.asdict(PRELIMINARY)
 NAMES = [parameter.name for parameter in design_parameters()]
@@ -73,10 +73,28 @@ def test_a_mapping_holds_nothing_unknown():
         JointDesign.from_mapping({**VALUES, 'masss': 1.0})
 
 
-def test_only_the_contact_width_has_a_default():
-    without = {key: VALUES[key] for key in VALUES if key != 'contact_width'}
-    assert JointDesign.from_mapping(without).contact_width == 1.0
-    assert [p.name for p in design_parameters() if p.default is not None] == ['contact_width']
+def test_what_has_a_default_is_the_papers():
+    defaults = {
+        field.name: field.default for field in design_fields() if field.default is not None
+    }
+    assert defaults == {'contact_width': 1.0, 'contact_law': 'merged', 'stiffness': 0.0}
+    without = {key: VALUES[key] for key in VALUES if key not in defaults}
+    assert JointDesign.from_mapping(without) == PRELIMINARY
+
+
+@pytest.mark.parametrize('law', ['Merged', '', None, 3, ['merged']])
+def test_a_law_that_is_none_is_refused_with_the_choices(law):
+    with pytest.raises(DesignError, match='allowed is one of merged, friction_circle') as caught:
+        JointDesign(**{**VALUES, 'contact_law': law})
+    assert caught.value.key == 'contact_law'
+
+
+def test_an_elastic_seat_ends_at_90_degrees():
+    values = {**VALUES, 'contact_end_angle': 1.6}
+    JointDesign(**{**values, 'contact_law': 'friction_circle'})
+    with pytest.raises(DesignError, match='contact zone up to 90 deg') as caught:
+        JointDesign(**{**values, 'contact_law': 'elastic_seat'})
+    assert caught.value.key == 'contact_end_angle'
 
 
 def test_every_parameter_says_what_it_is():

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tendon_statics.files.number_parameter import SettingError
 from tendon_statics.node.faults import (
     IMPLAUSIBLE_TENSION,
     LAG,
@@ -18,7 +19,6 @@ from tendon_statics.node.faults import (
     FaultSettings,
     fault_parameters,
 )
-from tendon_statics.node.number_parameter import SettingError
 
 TENSIONS = (1.0, 2.0)
 PERIOD = 2_000_000

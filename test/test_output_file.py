@@ -4,13 +4,14 @@ import os
 import signal
 import stat
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 from programs import PROGRAM
 from ros_programs import wait_for
 
-from tendon_statics.output_file import OutputError, output_file
+from tendon_statics.files.output_file import OutputError, output_file
 
 
 def write(path, fail=False):
@@ -58,6 +59,42 @@ def test_a_link_stays_a_link(tmp_path):
 def test_what_cannot_be_written_is_named(path):
     with pytest.raises(OutputError, match=f'^{path}: it cannot be written'):
         write(Path(path))
+
+
+def test_an_interruption_at_any_moment_leaves_nothing_half_written(tmp_path):
+    """At the first line that runs while a file is written, at the second, and so on to the end."""
+    path = tmp_path / 'out.csv'
+    moment = 0
+    while interrupted_at(moment, lambda: write(path)):
+        assert [file.name for file in tmp_path.iterdir()] in ([], ['out.csv'])
+        path.unlink(missing_ok=True)
+        moment += 1
+    assert moment > 10
+    assert path.read_text() == 'half'
+
+
+def interrupted_at(moment, work):
+    """Whether an interruption, as a signal makes, came at one of the lines of `output_file`."""
+    left = [moment]
+
+    def count(frame, event, _argument):
+        if frame.f_globals['__name__'] != output_file.__module__:
+            return None
+        if event == 'line':
+            left[0] -= 1
+            if left[0] == -1:
+                raise KeyboardInterrupt
+        return count
+
+    before = sys.gettrace()
+    sys.settrace(count)
+    try:
+        work()
+    except KeyboardInterrupt:
+        return True
+    finally:
+        sys.settrace(before)
+    return False
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])

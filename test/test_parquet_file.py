@@ -8,7 +8,7 @@ import pytest
 from pyarrow import parquet
 
 from tendon_statics.recordings.errors import RecordingError
-from tendon_statics.recordings.load import load_recording
+from tendon_statics.recordings.reading.load import load_recording
 
 
 @pytest.fixture

@@ -10,9 +10,9 @@ from tendon_statics import load_recording
 from tendon_statics.command_line import progress
 from tendon_statics.command_line.main import main
 from tendon_statics.command_line.progress import with_progress
-from tendon_statics.recordings.bag_output import write_bag
-from tendon_statics.recordings.replay import replay
-from tendon_statics.recordings.table_output import write_table
+from tendon_statics.recordings.replay.bag_output import write_bag
+from tendon_statics.recordings.replay.estimates import replay
+from tendon_statics.recordings.replay.table_output import write_table
 
 
 class Terminal(io.StringIO):

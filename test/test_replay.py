@@ -12,15 +12,15 @@ from programs import assert_refused, run
 from pyarrow import parquet
 
 from tendon_statics import Recording, RecordingError, TensionError, solve
-from tendon_statics.installed_files import installed_config
-from tendon_statics.output_file import OutputError
+from tendon_statics.files.installed_files import installed_config
+from tendon_statics.files.output_file import OutputError
 from tendon_statics.physics import StickSlipTracker, slip_margin
-from tendon_statics.recordings import bag_output
-from tendon_statics.recordings import replay as replay_module
-from tendon_statics.recordings.load import load_recording
-from tendon_statics.recordings.replay import replay
-from tendon_statics.recordings.table_output import write_table
-from tendon_statics.recordings.topics import BagTopics
+from tendon_statics.recordings.reading.load import load_recording
+from tendon_statics.recordings.reading.topics import BagTopics
+from tendon_statics.recordings.replay import bag_output
+from tendon_statics.recordings.replay import estimates as replay_module
+from tendon_statics.recordings.replay.estimates import replay
+from tendon_statics.recordings.replay.table_output import write_table
 
 WRITERS = {
     'csv': lambda path, replayed: write_table(path, replayed.columns()),

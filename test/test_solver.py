@@ -10,12 +10,13 @@ from pathlib import Path
 
 import pytest
 from designs import PRELIMINARY, cases, random_cases
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from quartic import solve_quartic
+from thoroughness import examples
 
 from tendon_statics import Equilibrium, JointDesign, Regime, TensionError, solve
-from tendon_statics.physics import design_parameters, residual
+from tendon_statics.physics import UPRIGHT, design_parameters, residual
 
 ANGLE_TOLERANCE = 1e-9
 PRESSURE_TOLERANCE = 1e-9
@@ -49,7 +50,7 @@ def test_the_published_case():
     assert equilibrium.pressure == pytest.approx(405.6, abs=5e-6)
     assert equilibrium.stable is False
     assert equilibrium.branch_consistent is True
-    assert 30 <= equilibrium.iterations <= 33
+    assert 1 <= equilibrium.iterations <= 12
     assert abs(equilibrium.residual) < 1e-12
 
 
@@ -93,7 +94,7 @@ def test_400_random_designs_agree_with_the_quartic():
 
 
 @given(cases())
-@settings(max_examples=200)
+@examples(200)
 def test_drawn_designs_agree_with_the_quartic(case):
     design, tension_l, tension_s = case
     expected = solve_quartic(design, tension_l, tension_s)
@@ -157,7 +158,7 @@ def test_a_result_proves_itself(case):
 
 
 @given(cases())
-@settings(max_examples=200)
+@examples(200)
 def test_derivatives_are_those_of_finite_differences(case):
     design, tension_l, tension_s = case
     here = solve(design, tension_l, tension_s)
@@ -201,7 +202,7 @@ def test_what_is_not_determined_is_none():
     for tensions, regime in (((1.0, 1.5), Regime.HELD), ((0.0, 2.0), Regime.SLACK)):
         equilibrium = solve(PRELIMINARY, *tensions)
         assert equilibrium == Equilibrium(
-            PRELIMINARY, regime, *tensions, root_count=0, iterations=0
+            PRELIMINARY, UPRIGHT, regime, *tensions, root_count=0, iterations=0
         )
         assert equilibrium.bend_angle_stddev(0.01) is None
         assert equilibrium.pressure_stddev(0.01) is None
@@ -223,7 +224,7 @@ def test_a_result_is_a_value(tensions):
 def test_the_dict_has_all_that_the_result_has():
     equilibrium = solve(PRELIMINARY, 1.0, 2.0)
     fields = equilibrium.as_dict()
-    assert set(Equilibrium._fields) - set(fields) == {'design'}
+    assert set(Equilibrium._fields) - set(fields) == {'design', 'load', 'slip_gradient'}
     for name, value in fields.items():
         attribute = getattr(equilibrium, name)
         assert value == (attribute._asdict() if isinstance(value, dict) else attribute), name
@@ -267,7 +268,7 @@ def test_friction_above_one_and_a_heavy_unit_keep_their_digits():
 
 
 @given(cases(), st.floats(-12.0, -1.0), st.floats(0.1, 0.9))
-@settings(max_examples=150)
+@examples(150)
 def test_tensions_that_hardly_exceed_the_weight_keep_their_digits(case, exponent, share):
     design, _, _ = case
     total = design.weight * (1.0 + 10.0**exponent)
@@ -355,7 +356,7 @@ def test_no_tension_is_slack(tensions):
 @given(
     st.floats(allow_nan=True, allow_infinity=True), st.floats(allow_nan=True, allow_infinity=True)
 )
-@settings(max_examples=500)
+@examples(500)
 def test_any_two_floats_give_a_finite_answer_or_a_tension_error(tension_l, tension_s):
     try:
         equilibrium = solve(PRELIMINARY, tension_l, tension_s)
@@ -367,7 +368,7 @@ def test_any_two_floats_give_a_finite_answer_or_a_tension_error(tension_l, tensi
 
 
 @given(st.integers(0, 2**32))
-@settings(max_examples=100)
+@examples(100)
 def test_numpy_scalars_are_numbers(seed):
     import numpy as np
 

@@ -12,17 +12,16 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
 
 from tendon_statics.node.tension_source import (
-    MOST_WAITING,
     ArraySource,
-    Calibration,
     JointStateSource,
     Reading,
-    Reason,
     StampOrder,
     WrenchPairSource,
-    calibrated,
     nanoseconds,
 )
+from tendon_statics.tensions.cable_scale import CableScale, scaled
+from tendon_statics.tensions.pairing import MOST_WAITING
+from tendon_statics.tensions.reason import Reason
 
 
 class Taken:
@@ -102,7 +101,7 @@ def test_cables_are_found_by_name_in_any_order(taken):
         Reason.MISSING_CABLE,
     ]
     assert 'no left among the names: right' in taken.drops[0][1]
-    assert '2 names came with 1 efforts, right has none' in taken.drops[1][1]
+    assert '2 names came with 1 efforts, so it is not known whose' in taken.drops[1][1]
 
 
 def test_stamps_out_of_order_and_repeated_ones_are_dropped(taken):
@@ -268,9 +267,9 @@ def test_every_message_of_a_load_cell_is_paired_dropped_or_waiting(sent, skew):
 def test_a_slack_cable_is_not_negative_by_rounding():
     for raw in (0.1, 0.3, 0.7, 1.1, 12.34):
         for gain in (0.1, -0.3, 1.7):
-            calibration = Calibration(gain, -gain * raw, 10.0)
+            calibration = CableScale(gain, -gain * raw, 10.0)
             for value in (raw, math.nextafter(raw, 0.0), math.nextafter(raw, 100.0)):
-                tension, fault = calibrated('tension_l', value, calibration)
+                tension, fault = scaled('tension_l', value, calibration)
                 assert fault is None
                 assert tension == 0.0
 
@@ -291,7 +290,7 @@ def test_a_slack_cable_is_not_negative_by_rounding():
     ],
 )
 def test_what_is_measured_becomes_newtons_or_is_refused(value, reason):
-    tension, fault = calibrated('tension_l', value, Calibration(-20.0, 5.0, 207.5))
+    tension, fault = scaled('tension_l', value, CableScale(-20.0, 5.0, 207.5))
     assert (fault[0] if fault else None) is reason
     if fault:
         assert 'tension_l is ' in fault[1]

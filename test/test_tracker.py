@@ -4,14 +4,15 @@ import math
 
 import pytest
 from designs import PRELIMINARY, cases, random_cases
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from thoroughness import examples
 
-from tendon_statics import JointDesign, Regime, TensionError
+from tendon_statics import Equilibrium, JointDesign, Regime, TensionError
 from tendon_statics.physics import (
+    UPRIGHT,
     BendAngleError,
     StickSlipTracker,
-    TrackedState,
     admissible_angles,
     slip_margin,
 )
@@ -35,7 +36,7 @@ def walks(draw: st.DrawFn) -> tuple:
 
 
 @given(walks())
-@settings(max_examples=300)
+@examples(300)
 def test_held_is_admissible_and_the_angle_changes_only_on_slip(walk):
     design, angle, sequence = walk
     tracker = StickSlipTracker(design, angle)
@@ -89,7 +90,7 @@ class RoundaboutTracker(StickSlipTracker):
 
 
 @given(walks())
-@settings(max_examples=300)
+@examples(300)
 def test_at_a_stop_nothing_but_the_stop_is_found(walk):
     design, angle, sequence = walk
     stop = math.copysign(design.max_bend_angle, angle)
@@ -124,7 +125,7 @@ def test_mirrored_tensions_give_the_mirrored_path(walk):
 
 
 @given(cases(), shares, st.floats(1.0, 3.0), st.booleans())
-@settings(max_examples=300)
+@examples(300)
 def test_the_path_does_not_depend_on_how_finely_a_ramp_is_sampled(case, share, factor, pulls_s):
     """One cable is pulled ever harder; a hundred steps end where one does."""
     design, tension_l, tension_s = case
@@ -165,7 +166,7 @@ def test_an_interval_that_opens_behind_a_sliding_unit_does_not_hold_it(steps):
 
 
 @given(cases())
-@settings(max_examples=300)
+@examples(300)
 def test_every_end_of_an_admissible_interval_is_held(case):
     design, tension_l, tension_s = case
     for interval in admissible_angles(design, tension_l, tension_s):
@@ -176,7 +177,7 @@ def test_every_end_of_an_admissible_interval_is_held(case):
 
 
 @given(cases())
-@settings(max_examples=200)
+@examples(200)
 def test_holding_and_slipping_make_up_the_whole_range(case):
     """From any angle the unit is held, or ends at an admissible angle or a stop."""
     design, tension_l, tension_s = case
@@ -289,8 +290,8 @@ def test_a_slip_to_an_angle_keeps_that_angles_uncertainty_while_held():
 def test_a_slack_cable_leaves_the_angle_unsure_until_a_stop_or_a_reset():
     tracker = StickSlipTracker(PRELIMINARY, 0.1)
     assert tracker.update(1.0, 1.5).angle_assured
-    assert tracker.update(0.0, 1.5) == TrackedState(
-        Regime.SLACK, 0.0, 1.5, bend_angle=None, angle_assured=False
+    assert tracker.update(0.0, 1.5) == Equilibrium(
+        PRELIMINARY, UPRIGHT, Regime.SLACK, 0.0, 1.5, angle_assured=False
     )
     after = tracker.update(1.0, 1.5)
     assert (after.regime, after.bend_angle, after.angle_assured) == (Regime.HELD, 0.1, False)

@@ -5,8 +5,8 @@ import pytest
 from designs import PRELIMINARY
 
 from tendon_statics import Recording, RecordingError
-from tendon_statics.recordings.replay import replay
-from tendon_statics.recordings.units import UNITS, parse_column
+from tendon_statics.recordings.reading.units import UNITS, parse_column
+from tendon_statics.recordings.replay.estimates import replay
 
 
 @pytest.mark.parametrize('quantity', UNITS)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tendon_statics.yaml_file import YamlFileError, read_yaml
+from tendon_statics.files.yaml_file import YamlFileError, read_yaml
 
 
 @pytest.mark.parametrize(
@@ -11,7 +11,6 @@ from tendon_statics.yaml_file import YamlFileError, read_yaml
         ('3', 3),
         ('-3', -3),
         ('+3', 3),
-        ('010', 10),
         ('3.', 3.0),
         ('3e0', 3.0),
         ('1000000000000000001', 10**18 + 1),
@@ -27,6 +26,29 @@ def test_a_scalar_has_the_type_that_ros_gives_it(tmp_path, text, value):
     (read,) = read_yaml(path).values()
     assert read == value
     assert type(read) is type(value)
+
+
+@pytest.mark.parametrize('text', ['010', '-010', '00', '08', '0x10', '+0X1f'])
+def test_a_number_in_which_readers_of_yaml_differ_is_refused(tmp_path, text):
+    path = tmp_path / 'file.yaml'
+    path.write_text(f'key:\n  mass: {text}\n')
+    with pytest.raises(YamlFileError, match=r'in line 2 is another number to ROS, '):
+        read_yaml(path)
+
+
+@pytest.mark.parametrize(('text', 'value'), [('0', 0), ('-0', 0), ('0.5', 0.5), ('0e3', 0.0)])
+def test_a_zero_is_no_octal_number(tmp_path, text, value):
+    path = tmp_path / 'file.yaml'
+    path.write_text(f'key: {text}\n')
+    assert read_yaml(path) == {'key': value}
+
+
+def test_an_alias_is_refused_where_ros_does_not_read_it(tmp_path):
+    path = tmp_path / 'file.yaml'
+    path.write_text('a: &one 1\nb: *one\n')
+    assert read_yaml(path) == {'a': 1, 'b': 1}
+    with pytest.raises(YamlFileError, match=r'^\*one in line 2 stands for another part'):
+        read_yaml(path, aliases=False)
 
 
 def test_an_error_is_one_line_and_says_where(tmp_path):

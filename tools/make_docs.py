@@ -25,8 +25,8 @@ from tendon_statics.command_line.main import main as run
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = (
     'README.md',
-    *('docs/calibration.md', 'docs/model.md', 'docs/node.md', 'docs/rig.md', 'docs/security.md'),
-    'docs/validation.md',
+    *('docs/calibration.md', 'docs/recordings.md', 'docs/model.md', 'docs/node.md'),
+    *('docs/rig.md', 'docs/security.md', 'docs/validation.md'),
 )
 SESSION = 'config/recorded_session.mcap'
 FIGURES = {
@@ -36,6 +36,7 @@ FIGURES = {
     'docs/map.svg': 'plot map --tension-l-range 0.8 1.2 --tension-s-range 1.6 2.4',
     'docs/recording.svg': f'plot recording {SESSION}',
     'docs/residual.svg': 'plot residual',
+    'docs/tilted.svg': 'plot unit --base-tilt-deg 10',
     'docs/unit.svg': 'plot unit',
 }
 

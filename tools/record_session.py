@@ -29,9 +29,9 @@ from rosbags.typesys import Stores, get_typestore
 from std_msgs.msg import Float64, Float64MultiArray, String
 
 from tendon_statics import default_design_path, load_design
-from tendon_statics.output_file import output_file
+from tendon_statics.files.output_file import output_file
 from tendon_statics.physics import StickSlipTracker, TensionError
-from tendon_statics.recordings.bag import ARRAY, NUMBER, TEXT
+from tendon_statics.recordings.reading.bag_values import ARRAY, NUMBER, TEXT
 
 OUTPUT = ROOT / 'config' / 'recorded_session.mcap'
 UNIT = dataclasses.replace(

@@ -5,14 +5,26 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import math
+from typing import Any, NamedTuple
 
-from ..physics import Calibration, JointDesign, calibrate
-from ..physics.calibration import DEFAULT_FIT
-from ..physics.calibration_result import SLIPPING
+from ..files.unit_file import Unit
+from ..physics import CONTACT_LAWS, Calibration, CalibrationError, DesignError, calibrate
+from ..physics.calibration import DEFAULT_FIT, SLIPPING, LawComparison, compare_laws
 from ..recordings.errors import RecordingError
+from ..recordings.hints import hints
 from ..recordings.motion import mark_motion
 from ..recordings.recording import Recording
-from .options import UsageError, add_tension_stddev_option
+from ..recordings.scaling import usable
+from ..recordings.sessions import follow_each_other
+from .options import (
+    UsageError,
+    add_tension_stddev_option,
+    tension_stddev_from,
+)
+from .recorded_load import recorded_load
+
+ALL_LAWS = 'all'
+"""Of ``--contact-law``: compare them"""
 
 
 def add_calibration_options(parser: argparse.ArgumentParser) -> None:
@@ -21,7 +33,15 @@ def add_calibration_options(parser: argparse.ArgumentParser) -> None:
         '--fit',
         default=','.join(DEFAULT_FIT),
         metavar='NAME,...',
-        help='design parameters to fit; default: %(default)s',
+        help='design parameters to fit, and of the load cells gain_l, gain_s, bias_l (N), bias_s; '
+        'default: %(default)s',
+    )
+    parser.add_argument(
+        '--contact-law',
+        choices=(*CONTACT_LAWS, ALL_LAWS),
+        metavar='LAW',
+        help=f'fit {", ".join(CONTACT_LAWS)}, or {ALL_LAWS}: compare them on these data; default: '
+        "the design's",
     )
     states = parser.add_mutually_exclusive_group()
     states.add_argument(
@@ -37,7 +57,7 @@ def add_calibration_options(parser: argparse.ArgumentParser) -> None:
         action='store_true',
         help='every sample is about to slip, as is taken of a recording without states and times',
     )
-    add_tension_stddev_option(parser)
+    add_tension_stddev_option(parser, default=None)
     parser.add_argument(
         '--bend-angle-stddev-deg',
         type=float,
@@ -70,12 +90,14 @@ def states_from(options: argparse.Namespace, recording: Recording) -> Recording:
         return mark_motion(recording, math.radians(options.motion_step_deg))
     if options.all_slipping:
         return dataclasses.replace(recording, state=[SLIPPING] * len(recording))
-    if recording.state is None and recording.time is not None:
-        raise RecordingError(
-            f'the samples of {recording.name} follow each other in time, but have no state that '
-            'says which of them are slipping: take it from the motions of the angle '
-            '(--motion-step-deg), or say that all are (--all-slipping)'
-        )
+    if recording.state is None:
+        why = follow_each_other(recording)
+        if why:
+            raise RecordingError(
+                f'the samples of {recording.name} follow each other in time, as {why}, but have '
+                'no state that says which of them are slipping: take it from the motions of the '
+                'angle (--motion-step-deg), or say that all are (--all-slipping)'
+            )
     return recording
 
 
@@ -86,20 +108,43 @@ def states_text(options: argparse.Namespace) -> str:
     return 'all slipping, as was said' if options.all_slipping else 'those of the recording'
 
 
-def calibration_from(
-    options: argparse.Namespace, design: JointDesign, recording: Recording
-) -> Calibration:
-    """Fit what the options name."""
+class Fitted(NamedTuple):
+    """What was fitted, and how the contact laws compare if that was asked."""
+
+    calibration: Calibration
+    """With the law that was asked for, or the best of all"""
+    comparison: LawComparison | None = None
+
+
+def calibration_from(options: argparse.Namespace, unit: Unit, recording: Recording) -> Fitted:
+    """Fit what the options name to the samples that the estimator would take.
+
+    Raises
+    ------
+    CalibrationError, RecordingError
+        If nothing can be fitted; the text has the hints that the recording gives.
+    UsageError
+        If SciPy is missing.
+    """
+    load = recorded_load(options, unit, recording)
     try:
-        return calibrate(
-            design,
-            states_from(options, recording),
-            [name.strip() for name in options.fit.split(',') if name.strip()],
-            tension_stddev=options.tension_stddev,
-            bend_angle_stddev=math.radians(options.bend_angle_stddev_deg),
-            pressure_stddev=options.pressure_stddev,
-        )
+        asked: dict[str, Any] = {
+            'design': unit.design,
+            'data': states_from(options, usable(recording)),
+            'fit': [name.strip() for name in options.fit.split(',') if name.strip()],
+            'tension_stddev': tension_stddev_from(options, unit),
+            'bend_angle_stddev': math.radians(options.bend_angle_stddev_deg),
+            'pressure_stddev': options.pressure_stddev,
+            'load': load,
+        }
+        if options.contact_law != ALL_LAWS:
+            return Fitted(calibrate(**asked, contact_law=options.contact_law))
+        comparison = compare_laws(**asked)
+        assert comparison.best.calibration is not None
+        return Fitted(comparison.best.calibration, comparison)
     except ImportError:
         raise UsageError(
             'a calibration needs SciPy: install python3-scipy or pip install scipy'
         ) from None
+    except (CalibrationError, DesignError, RecordingError) as error:
+        raise type(error)('; '.join([str(error), *hints(recording, unit.design)])) from None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from ..physics import design_parameters
+from ..physics import design_fields
 from .options import add_design_option, design_from
 from .tables import markdown_table
 
@@ -22,14 +22,15 @@ def run(options: argparse.Namespace) -> None:
             ('parameter', 'symbol', 'value:', 'unit', 'allowed', 'meaning'),
             [
                 (
-                    f'`design.{parameter.name}`',
-                    parameter.symbol,
-                    f'{getattr(design, parameter.name):.7g}',
-                    parameter.unit or '1',
-                    f'{parameter.minimum:.6g} to {parameter.maximum:.6g}',
-                    parameter.description,
+                    f'`design.{field.name}`',
+                    field.symbol,
+                    value if isinstance(value, str) else f'{value:.7g}',
+                    field.unit or '1',
+                    field.allowed.removesuffix(f' {field.unit}'),
+                    field.description,
                 )
-                for parameter in design_parameters()
+                for field in design_fields()
+                for value in (getattr(design, field.name),)
             ],
         )
     )

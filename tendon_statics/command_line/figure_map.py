@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..physics import EquilibriumBatch, Regime
+from ..physics import UPRIGHT, EquilibriumBatch, Load, Regime
 from ..physics.batch import REGIME_CODES
 from ..recordings.recording import Floats
 from .options import add_design_option
+from .pair_options import setting_title
 from .sweep import add_grid_options, grid_from
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ class _Quantity(NamedTuple):
 
     label: str
     colours: str
-    """Colour map, even in lightness, told apart with any colour vision"""
+    """Colour map of even steps in lightness, readable with any colour vision"""
 
 
 QUANTITIES = {
@@ -36,7 +37,7 @@ QUANTITIES = {
 }
 
 WIDE = 20.0
-"""Largest over smallest value from which on the colours are logarithmic"""
+"""Ratio of the largest to the smallest value above which the colours are logarithmic"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -54,7 +55,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def draw(drawing: Figure, options: argparse.Namespace) -> None:
-    """Draw the map, and the regimes that have no number."""
+    """Draw the map, and the areas that have no number."""
     from matplotlib.colors import ListedColormap, LogNorm
     from matplotlib.patches import Patch
 
@@ -67,7 +68,7 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
 
     has_no_number = {
         'friction holds: not determined': (answers.regime == REGIME_CODES[Regime.HELD], '#e6e6e6'),
-        'slack, or below the weight': (
+        'slack, or the joint not seated': (
             (answers.regime == REGIME_CODES[Regime.SLACK]) | (answers.regime < 0),
             '#7f7f7f',
         ),
@@ -94,6 +95,8 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
         drawing.colorbar(mesh, label=quantity.label)
     for side, sign in (('s', 1.0), ('l', -1.0)):
         _name_stop(axes, answers, side, sign)
+    load = answers.load if isinstance(answers.load, Load) else UPRIGHT  # one for all, from options
+    drawing.suptitle('\n'.join(setting_title(answers.design, load)), fontsize=10)
     axes.set_xlabel('tension of cable l, T_l [N]')
     axes.set_ylabel('tension of cable s, T_s [N]')
     if patches:
@@ -116,7 +119,7 @@ def _values(answers: EquilibriumBatch, quantity: str) -> Floats:
 
 
 def _name_stop(axes: Axes, answers: EquilibriumBatch, side: str, sign: float) -> None:
-    """Write into the region where the unit is driven to a stop that it is."""
+    """Label the area in which the unit is driven to one of its stops."""
     stopped = answers.regime == REGIME_CODES[Regime.DRIVEN_TO_STOP]
     there = stopped & (sign * answers.bend_angle > 0.0)
     if there.mean() < 0.05:

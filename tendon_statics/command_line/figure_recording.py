@@ -8,10 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..physics import JointDesign, Regime
-from ..recordings.replay import INVALID, Replay
+from ..recordings.replay.estimates import INVALID, Replay
 from .figures import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION
-from .options import add_design_option, add_tension_stddev_option, design_from
-from .recording_options import add_recording_options, recording_from, report_damage
+from .options import add_design_option, add_load_options, add_tension_stddev_option
+from .recording_options import (
+    add_recording_options,
+    report_damage,
+    report_notes,
+    unit_and_recording,
+)
 from .replay import add_estimation_options, replay_from
 
 if TYPE_CHECKING:
@@ -38,15 +43,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_recording_options(parser)
     add_design_option(parser)
     add_estimation_options(parser)
-    add_tension_stddev_option(parser)
+    add_load_options(parser)
+    add_tension_stddev_option(parser, default=None)
 
 
 def draw(drawing: Figure, options: argparse.Namespace) -> int:
     """Read, replay and draw; return the exit code."""
-    recording = recording_from(options)
-    design = design_from(options)
-    replayed = replay_from(options, design, recording)
+    unit, recording = unit_and_recording(options)
+    design = unit.design
+    replayed = replay_from(options, unit, design, recording)
     draw_replay(drawing, design, replayed)
+    report_notes(unit, recording)
     return report_damage(recording)
 
 

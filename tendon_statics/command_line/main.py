@@ -4,22 +4,15 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import signal
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
-from typing import NoReturn
+from typing import Any, NoReturn
 
-from ..output_file import OutputError
-from ..physics.errors import (
-    BendAngleError,
-    CalibrationError,
-    DesignError,
-    TensionError,
-    UnreachableError,
-)
-from ..recordings.errors import RecordingError
+from ..physics.errors import TendonStaticsError
 from .options import UsageError
 
 VERBS = {
@@ -28,32 +21,26 @@ VERBS = {
     'calibrate': 'fit a design to a recorded session, with the uncertainty of every value',
     'replay': 'every sample of a recorded session through the model',
     'report': 'a recorded session and its calibration as one HTML file',
+    'tare': 'the biases of load cells from a recording of slack cables',
     'sweep': 'a map of the answers over both cable tensions, as a file',
     'track': 'follow the unit, with memory, through the tensions of a CSV file',
     'invert': 'the tensions at which the unit is about to slip at a bend angle',
-    'paper': "the paper's published case: errata, identified values and sign check, as tables",
+    'paper': "the paper's published case: bisection, errata, identified values, signs, other laws",
     'design': 'check a design file and show what is in it',
     'plot': 'figures: Eq. (4), the unit, its hysteresis, maps, recordings, calibrations',
 }
 """Verb → what it does; the module of the same name has the rest."""
 
 
-ERRORS = (
-    UsageError,
-    DesignError,
-    TensionError,
-    BendAngleError,
-    UnreachableError,
-    CalibrationError,
-    RecordingError,
-    OutputError,
-    OSError,
-)
-"""What is the user's to mend"""
-
-
 class _Parser(argparse.ArgumentParser):
-    """A parser whose errors are one line."""
+    """A parser whose errors are one line, and which takes -1e-3 for a number."""
+
+    def __init__(self, *args: Any, **more: Any) -> None:
+        super().__init__(*args, **more)
+        # Python before 3.14 knows -0.001 only, and takes -1e-3 for an option.
+        self._negative_number_matcher = re.compile(
+            r'-(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$', re.IGNORECASE
+        )
 
     def error(self, message: str) -> NoReturn:
         raise UsageError(f'{message} (see {self.prog} --help)')
@@ -88,20 +75,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
             module = import_module(f'{__package__}.{verb}')
             module.add_arguments(subparser)
             subparser.set_defaults(run=module.run)
-    with suppress(ValueError):  # It is not for other threads than the main one.
-        # So that a file that is being written is taken away.
+    with suppress(ValueError):  # Only the main thread may.
+        # So that a half-written file is removed.
         signal.signal(signal.SIGTERM, _interrupt)
     try:
         chosen = parser.parse_args(arguments)
         code: int | None = chosen.run(chosen)
         sys.stdout.flush()
     except BrokenPipeError:
-        # The reader of our output has gone, as `head` does; that is no error of ours.
+        # Whoever reads the output has stopped, as `head` does; that is not an error.
         _drop_output()
         return 0
     except KeyboardInterrupt as interruption:
         return 128 + (interruption.args or (signal.SIGINT,))[0]
-    except ERRORS as error:
+    except (TendonStaticsError, OSError) as error:
         print(f'tendon-statics: {error}', file=sys.stderr)
         if isinstance(error, OSError):
             _drop_output()

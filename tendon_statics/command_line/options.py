@@ -1,4 +1,4 @@
-"""Options that several verbs share, and the error for asking too much of them."""
+"""Options that several verbs share, and the error for those that cannot be met."""
 
 from __future__ import annotations
 
@@ -6,26 +6,52 @@ import argparse
 import json
 import math
 
-from ..design_file import default_design_path, load_design
-from ..physics import JointDesign
+from ..files.design_file import default_design_path
+from ..files.unit_file import Unit, load_unit
+from ..physics import UPRIGHT, JointDesign, Load, TendonStaticsError
+
+TENSION_STDDEV = 0.01
+"""N"""
 
 
-class UsageError(Exception):
-    """The command line asks for what cannot be; the text is for the user."""
+class UsageError(TendonStaticsError):
+    """The command line asks for something impossible; the text is for the user."""
 
 
 def add_design_option(parser: argparse.ArgumentParser) -> None:
-    """Add ``--design FILE``."""
+    """Add ``--design FILE`` and ``--node NAME``."""
     parser.add_argument(
         '--design',
         metavar='FILE',
         help='joint design, a ROS parameter file; default: the preliminary design',
     )
+    parser.add_argument(
+        '--node',
+        metavar='NAME',
+        default='',
+        help='the estimator whose parameters are taken from that file, say /left/estimator; '
+        'default: the only one that it names, or any',
+    )
+
+
+def unit_from(options: argparse.Namespace) -> Unit:
+    """Return the unit that ``--design`` names, or one of the installed default design."""
+    return load_unit(options.design or default_design_path(), _full_name(options.node))
 
 
 def design_from(options: argparse.Namespace) -> JointDesign:
-    """Return the design that ``--design`` names, or the installed default."""
-    return load_design(options.design or default_design_path())
+    """Return the design of that unit."""
+    return unit_from(options).design
+
+
+def design_and_load(options: argparse.Namespace) -> tuple[JointDesign, Load]:
+    """Return that design, and what acts on the unit beside its cables."""
+    unit = unit_from(options)
+    return unit.design, load_from(options, unit)
+
+
+def _full_name(node: str) -> str:
+    return node if not node or node.startswith('/') else f'/{node}'
 
 
 def add_tension_options(
@@ -44,19 +70,104 @@ def add_tension_options(
         )
 
 
-def add_tension_stddev_option(parser: argparse.ArgumentParser) -> None:
-    """Add ``--tension-stddev N``."""
+def add_tension_stddev_option(
+    parser: argparse.ArgumentParser, default: float | None = TENSION_STDDEV
+) -> None:
+    """Add ``--tension-stddev N``; without a default it is that of the design file."""
+    of_file = '' if default is not None else 'that of the design file, or '
     parser.add_argument(
         '--tension-stddev',
         type=_deviation,
-        default=0.01,
+        default=default,
         metavar='N',
-        help='standard deviation of each tension in N; default: %(default)s',
+        help=f'standard deviation of each tension in N; default: {of_file}{TENSION_STDDEV}',
     )
 
 
+def tension_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
+    """Return the option, or what the design file says, or the default, in N."""
+    if options.tension_stddev is not None:
+        return float(options.tension_stddev)
+    return float(unit.get('tension_stddev') or TENSION_STDDEV)
+
+
+def add_load_options(parser: argparse.ArgumentParser) -> None:
+    """Add what acts on the unit beside its cables: tilt or gravity, and a force at the tip."""
+    group = parser.add_argument_group(
+        'load',
+        'beside the cables, in the joint frame; default: gravity_direction of the design file, or '
+        'upright, and nothing at the tip',
+    )
+    direction = group.add_mutually_exclusive_group()
+    direction.add_argument(
+        '--base-tilt-deg',
+        type=_finite,
+        metavar='DEG',
+        help='tilt of the base in the plane of bending in degrees, positive towards cable s',
+    )
+    direction.add_argument(
+        '--gravity-direction',
+        type=_finite,
+        nargs=3,
+        metavar=('X', 'Y', 'Z'),
+        help='or the direction of gravity, of any length: X towards cable s, Z along the unit at '
+        'zero bend; what Y has is carried by the guides and left out',
+    )
+    group.add_argument(
+        '--tip-force',
+        type=_finite,
+        nargs=2,
+        metavar=('X', 'Z'),
+        help='force on the unit in N, fixed in the joint frame',
+    )
+    group.add_argument(
+        '--tip-distance',
+        type=_finite,
+        metavar='M',
+        help="where it acts along the unit's axis, in m from the centre of the ball; default: "
+        'tip_distance of the design file',
+    )
+
+
+def load_from(options: argparse.Namespace, unit: Unit) -> Load:
+    """Return the load that the options name, or the design file for what they leave open.
+
+    Raises
+    ------
+    UsageError
+        If a tip distance is given without a force, or it is not said where the force acts.
+    LoadError
+        If the direction of gravity is of length zero, or a number too large.
+    """
+    force, distance = options.tip_force, options.tip_distance
+    if force is None and distance is not None:
+        raise UsageError('--tip-distance is given without --tip-force, whose place it is')
+    if distance is None:
+        distance = unit.get('tip_distance')
+    if force is not None and distance is None:
+        raise UsageError(
+            "--tip-force is given, but not where along the unit's axis it acts: say "
+            '--tip-distance, in m, or tip_distance in the design file'
+        )
+    tip = ((0.0, 0.0), 0.0) if force is None else (tuple(force), float(distance or 0.0))
+    if options.base_tilt_deg is not None:
+        return Load.tilted(math.radians(options.base_tilt_deg), *tip)
+    direction = options.gravity_direction or unit.get('gravity_direction')
+    return Load(tuple(direction or UPRIGHT.gravity_direction), *tip)
+
+
+def _finite(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f'it is {text!r}, allowed is a finite number')
+    return value
+
+
 def _deviation(text: str) -> float:
-    """Return a standard deviation, of which there is none that is not finite and above 0."""
+    """Return a standard deviation, which has to be finite and above 0."""
     try:
         value = float(text)
     except ValueError:

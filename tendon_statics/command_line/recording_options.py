@@ -3,51 +3,83 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from pathlib import Path
 
-from ..recordings.load import ENDINGS, load_recording
+from ..files.unit_file import Unit
+from ..files.unit_parameters import TENSION_SOURCES
+from ..recordings.hints import hints
+from ..recordings.reading.clock import CLOCKS
+from ..recordings.reading.load import ENDINGS, load_recording
+from ..recordings.reading.table_options import SEPARATORS, TableOptions
+from ..recordings.reading.topics import (
+    DEFAULT_PAIR,
+    DEFAULT_TENSIONS,
+    FORCE_COMPONENTS,
+    BagTopics,
+)
 from ..recordings.recording import Recording
-from ..recordings.topics import FORCE_COMPONENTS, BagTopics
+from ..recordings.scaling import of_unit
+from .options import unit_from
 from .progress import with_progress
 
 DEFAULTS = BagTopics()
 
+TIP_WRENCH = '/tip_wrench'
+"""Where the estimator listens"""
+
 
 def add_recording_options(parser: argparse.ArgumentParser) -> None:
-    """Add ``DATA`` and what says where in a bag the numbers are."""
+    """Add ``DATA`` and what says how it is read: where in a bag or table the numbers are."""
     parser.add_argument(
         'data',
         type=Path,
         metavar='DATA',
         help=f'recording, ending in {", ".join(ENDINGS)}, or the folder of a bag',
     )
-    bag = parser.add_argument_group('of a bag')
+    _add_bag_options(parser.add_argument_group('of a bag'))
+    _add_table_options(parser.add_argument_group('of a table'))
+
+
+def _add_bag_options(bag: argparse._ArgumentGroup) -> None:
     bag.add_argument(
         '--tensions-topic',
         type=_names,
-        default=DEFAULTS.tensions,
         metavar='TOPIC[,TOPIC]',
-        help='Float64MultiArray, JointState or Estimate; or two of WrenchStamped, cable l first; '
-        f'default: {DEFAULTS.tensions[0]}',
+        help='Float64MultiArray, Float32MultiArray, JointState, DynamicJointState or Estimate; or '
+        'two of WrenchStamped, Wrench, Float64 or Float32, cable l first; default: '
+        f'{DEFAULT_TENSIONS}, or {",".join(DEFAULT_PAIR)} if only these are there',
+    )
+    bag.add_argument(
+        '--tension-source',
+        choices=TENSION_SOURCES,
+        help="type of the tensions, as the estimator's parameter; default: that of the design "
+        'file, or whichever there is',
     )
     bag.add_argument(
         '--cable-names',
         type=_names,
-        default=DEFAULTS.cable_names,
         metavar='L,S',
-        help=f'names in a JointState; default: {",".join(DEFAULTS.cable_names)}',
+        help='names in a JointState; default: those of the design file, or '
+        f'{",".join(DEFAULTS.cable_names)}',
+    )
+    bag.add_argument(
+        '--interface',
+        metavar='NAME',
+        default=DEFAULTS.interface,
+        help='of the cables in a DynamicJointState; default: %(default)s',
     )
     bag.add_argument(
         '--force-component',
         choices=FORCE_COMPONENTS,
-        default=DEFAULTS.force_component,
-        help='of a WrenchStamped; default: %(default)s',
+        help=f'of a wrench; default: that of the design file, or {DEFAULTS.force_component}',
     )
     bag.add_argument(
         '--bend-angle-topic',
         metavar='TOPIC',
-        help='Float64 or JointState; default: /measured_bend_angle, if it is there',
+        help='Float64, Float32, JointState or DynamicJointState; default: /measured_bend_angle, '
+        'if it is there',
     )
     bag.add_argument(
         '--joint-name', metavar='NAME', help='in a JointState of the angle; default: its only one'
@@ -55,7 +87,20 @@ def add_recording_options(parser: argparse.ArgumentParser) -> None:
     bag.add_argument(
         '--pressure-topic',
         metavar='TOPIC',
-        help='Float64; default: /measured_pressure, if it is there',
+        help='Float64 or Float32; default: /measured_pressure, if it is there',
+    )
+    bag.add_argument(
+        '--base-topic',
+        metavar='TOPIC',
+        help='of the base: Imu, PoseStamped or QuaternionStamped; or its tilt in rad, Float64 or '
+        "Float32; default: what the design file's gravity_source says, or /measured_base_tilt, if "
+        'it is there',
+    )
+    bag.add_argument(
+        '--tip-wrench-topic',
+        metavar='TOPIC',
+        help='of the force at the tip, in the joint frame: WrenchStamped or Wrench; default: '
+        '/tip_wrench if the design file says tip_wrench, else none',
     )
     bag.add_argument('--state-topic', metavar='TOPIC', help='String: slipping or held')
     bag.add_argument(
@@ -65,21 +110,88 @@ def add_recording_options(parser: argparse.ArgumentParser) -> None:
         metavar='S',
         help='by which messages that belong together may be apart; default: %(default)s',
     )
+    bag.add_argument(
+        '--clock',
+        choices=CLOCKS,
+        default=DEFAULTS.clock,
+        help='times of messages: their stamps, those of recording (log), or whichever of these '
+        'all of them have; default: %(default)s',
+    )
 
 
-def recording_from(options: argparse.Namespace) -> Recording:
-    """Read the recording that the options name."""
+def _add_table_options(table: argparse._ArgumentGroup) -> None:
+    table.add_argument(
+        '--separator',
+        metavar='CHARACTER',
+        help=f'between columns, or one of {", ".join(SEPARATORS)}; default: that which fits',
+    )
+    table.add_argument(
+        '--decimal', metavar='CHARACTER', help='. or , in numbers; default: that which fits'
+    )
+    table.add_argument(
+        '--columns',
+        type=_pairs,
+        default={},
+        metavar='NAME=TITLE,...',
+        help='titles of columns, say tension_l=Fz1,tension_s=Fz2',
+    )
+    table.add_argument(
+        '--units',
+        type=_pairs,
+        default={},
+        metavar='NAME=UNIT,...',
+        help='units of columns, say tension=mN,bend_angle=deg; default: those in brackets in the '
+        'titles, or SI',
+    )
+    table.add_argument(
+        '--skip-rows',
+        type=int,
+        default=0,
+        metavar='N',
+        help='lines before the titles; default: %(default)s',
+    )
+    table.add_argument(
+        '--encoding', metavar='NAME', help='of a text file, say latin-1; default: utf-8'
+    )
+
+
+def unit_and_recording(options: argparse.Namespace) -> tuple[Unit, Recording]:
+    """Read the design file and the recording that the options name.
+
+    The tensions are in N and have faults as the estimator would find them with that file.
+    """
+    unit = unit_from(options)
     topics = BagTopics(
         tensions=options.tensions_topic,
-        cable_names=options.cable_names,
-        force_component=options.force_component,
+        tension_source=options.tension_source or unit.get('tension_source'),
+        cable_names=options.cable_names or tuple(unit.get('cable_names') or DEFAULTS.cable_names),
+        interface=options.interface,
+        force_component=options.force_component
+        or unit.get('wrench_component')
+        or DEFAULTS.force_component,
         bend_angle=options.bend_angle_topic,
         joint_name=options.joint_name,
         pressure=options.pressure_topic,
+        base=options.base_topic,
+        gravity_source=unit.get('gravity_source') or DEFAULTS.gravity_source,
+        imu_mounting=tuple(unit.get('imu_mounting') or DEFAULTS.imu_mounting),
+        tip_wrench=options.tip_wrench_topic
+        or (TIP_WRENCH if unit.get('tip_wrench') is True else None),
         state=options.state_topic,
         max_skew=options.max_skew,
+        tension_skew=unit.get('max_skew'),
+        clock=options.clock,
     )
-    return load_recording(options.data, topics, progress=with_progress)
+    table = TableOptions(
+        separator=options.separator,
+        decimal=options.decimal,
+        columns=options.columns,
+        units=options.units,
+        skip_rows=options.skip_rows,
+        encoding=options.encoding,
+    )
+    recording = load_recording(options.data, topics, table, progress=with_progress)
+    return unit, of_unit(recording, unit)
 
 
 def report_damage(recording: Recording) -> int:
@@ -94,5 +206,25 @@ def report_damage(recording: Recording) -> int:
     return 1
 
 
+def report_notes(unit: Unit, recording: Recording) -> None:
+    """Name on stderr how it was read and what looks wrong, for verbs whose output is a table."""
+    for text in (*recording.notes, *hints(recording, unit.design)):
+        print(f'tendon-statics: {recording.name}: {text}', file=sys.stderr)
+
+
 def _names(text: str) -> tuple[str, ...]:
     return tuple(filter(None, (name.strip() for name in text.split(','))))
+
+
+def _pairs(text: str) -> dict[str, str]:
+    """Read ``name=value,name=value``; a value may have commas."""
+    pairs: dict[str, str] = {}
+    for part in re.split(r',(?=\s*\w+\s*=)', text):
+        name, equals, value = part.partition('=')
+        name = name.strip()
+        if not (name and equals and value.strip()):
+            raise argparse.ArgumentTypeError(f'{part!r} is not NAME=VALUE')
+        if name in pairs:
+            raise argparse.ArgumentTypeError(f'{name} is given twice')
+        pairs[name] = value.strip()
+    return pairs

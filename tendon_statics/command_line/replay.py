@@ -6,16 +6,28 @@ import argparse
 from collections.abc import Callable
 from pathlib import Path
 
-from ..output_file import OutputError
+from ..files.output_file import OutputError
+from ..files.unit_file import Unit
+from ..files.unit_parameters import ESTIMATIONS
 from ..physics import JointDesign
-from ..recordings.bag_output import write_bag
 from ..recordings.progress import Progress
 from ..recordings.recording import Recording
-from ..recordings.replay import ESTIMATIONS, Replay, replay
-from ..recordings.table_output import write_table
-from .options import add_design_option, add_tension_stddev_option, design_from
+from ..recordings.replay.bag_output import write_bag
+from ..recordings.replay.estimates import Replay, replay
+from ..recordings.replay.table_output import write_table
+from .options import (
+    add_design_option,
+    add_load_options,
+    add_tension_stddev_option,
+    tension_stddev_from,
+)
 from .progress import with_progress
-from .recording_options import add_recording_options, recording_from, report_damage
+from .recorded_load import recorded_load
+from .recording_options import (
+    add_recording_options,
+    report_damage,
+    unit_and_recording,
+)
 from .replay_text import replay_facts
 from .tables import fact_lines
 
@@ -25,7 +37,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_recording_options(parser)
     add_design_option(parser)
     add_estimation_options(parser)
-    add_tension_stddev_option(parser)
+    add_load_options(parser)
+    add_tension_stddev_option(parser, default=None)
     parser.add_argument(
         '--output',
         type=Path,
@@ -39,42 +52,59 @@ def add_estimation_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '--estimation',
         choices=ESTIMATIONS,
-        default='equilibrium',
-        help='each sample by itself, or with memory, as the node; default: %(default)s',
+        help='each sample by itself, or with memory, as the node; default: that of the design '
+        f'file, or {ESTIMATIONS[0]}',
     )
+    add_initial_bend_angle_option(parser)
+
+
+def add_initial_bend_angle_option(parser: argparse.ArgumentParser) -> None:
+    """Add where a tracked unit begins."""
     parser.add_argument(
         '--initial-bend-angle',
         type=float,
-        default=0.0,
         metavar='RAD',
-        help='where a tracked unit is at first, in rad; default: %(default)s',
+        help='where a tracked unit is at first, in rad; default: that of the design file, or 0',
     )
+
+
+def initial_bend_angle_from(options: argparse.Namespace, unit: Unit) -> float:
+    """Return the option, or what the design file says, or 0, in rad."""
+    if options.initial_bend_angle is not None:
+        return float(options.initial_bend_angle)
+    return float(unit.get('initial_bend_angle') or 0.0)
 
 
 def run(options: argparse.Namespace) -> int:
     """Replay, write the samples, print a summary."""
     write = _writer(options.output)
-    recording = recording_from(options)
+    unit, recording = unit_and_recording(options)
     if write is not None and _is_within(options.output, options.data):
         raise OutputError(
             f'{options.output}: it is the recording itself, or lies in it, which must stay as it '
             'is; name another file'
         )
-    replayed = replay_from(options, design_from(options), recording)
+    replayed = replay_from(options, unit, unit.design, recording)
     if write is not None:
         write(options.output, replayed, with_progress)
-    print(fact_lines(replay_facts(replayed)))
+    print(fact_lines(replay_facts(replayed, unit.design)))
     return report_damage(recording)
 
 
-def replay_from(options: argparse.Namespace, design: JointDesign, recording: Recording) -> Replay:
-    """Replay a recording as the options ask for."""
+def replay_from(
+    options: argparse.Namespace,
+    unit: Unit,
+    design: JointDesign,
+    recording: Recording,
+) -> Replay:
+    """Replay a recording as the options and the unit's file ask for, with a design of it."""
     return replay(
         design,
         recording,
-        options.estimation,
-        initial_bend_angle=options.initial_bend_angle,
-        tension_stddev=options.tension_stddev,
+        options.estimation or unit.get('estimation') or ESTIMATIONS[0],
+        load=recorded_load(options, unit, recording),
+        initial_bend_angle=initial_bend_angle_from(options, unit),
+        tension_stddev=tension_stddev_from(options, unit),
         progress=with_progress,
     )
 
@@ -87,7 +117,7 @@ def _is_within(path: Path, recording: Path) -> bool:
 
 
 def _writer(path: Path | None) -> _Writer | None:
-    """Return what writes to such a file; found before the work, so that none is in vain."""
+    """Return what writes such a file; looked up before the work, lest that be in vain."""
     if path is None:
         return None
     if path.suffix not in _WRITERS:

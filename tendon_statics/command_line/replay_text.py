@@ -6,18 +6,32 @@ import math
 
 import numpy as np
 
+from ..physics import JointDesign
+from ..recordings.hints import hints
 from ..recordings.recording import Recording
-from ..recordings.replay import Replay
+from ..recordings.replay.estimates import VALID, Replay
+from .load_text import setting_facts
 from .tables import Facts
 
 
-def replay_facts(replay: Replay) -> Facts:
+def replay_facts(replay: Replay, design: JointDesign) -> Facts:
     """What the model says of a recording."""
     return [
         *_recording_facts(replay.recording),
+        *reading_facts(replay.recording, design),
+        *setting_facts(design, replay.load),
         ('estimation', replay.estimation),
         ('regimes', _regimes(replay)),
+        *_invalid_facts(replay),
         *_angle_facts(replay),
+    ]
+
+
+def reading_facts(recording: Recording, design: JointDesign) -> Facts:
+    """How a recording was read, and what looks wrong with it."""
+    return [
+        *(('read', note) for note in recording.notes),
+        *(('warning', hint) for hint in hints(recording, design)),
     ]
 
 
@@ -51,6 +65,17 @@ def _regimes(replay: Replay) -> str:
     )
 
 
+def _invalid_facts(replay: Replay) -> Facts:
+    """Why samples are invalid, in the node's words."""
+    reasons, counts = np.unique(replay.validity[replay.validity != VALID], return_counts=True)
+    if not len(reasons):
+        return []
+    listed = ', '.join(
+        f'{reasons[index]} {counts[index]}' for index in np.argsort(-counts, kind='stable')
+    )
+    return [('invalid', listed)]
+
+
 def _angle_facts(replay: Replay) -> Facts:
     known = np.isfinite(replay.bend_angle)
     facts = [('bend angle', f'determined in {int(known.sum())} samples')]
@@ -76,15 +101,6 @@ def _angle_facts(replay: Replay) -> Facts:
             f'against the measured angle, in {len(error)} samples',
         )
     )
-    middle = float(np.nanmedian(abs(measured)))
-    if middle > 0.5 * math.pi:
-        facts.append(
-            (
-                'warning',
-                f'half of the measured angles are above {middle:.3g} rad, and no unit bends so '
-                'far; if they are degrees, the column has to be named bend_angle [deg]',
-            )
-        )
     return facts
 
 

@@ -11,23 +11,28 @@ from importlib.metadata import version
 from pathlib import Path
 from string import Template
 
-from ..output_file import OutputError, output_file
-from ..physics import Calibration, CalibrationError, JointDesign, design_parameters
+from ..files.output_file import OutputError, output_file
+from ..physics import CalibrationError, JointDesign, design_fields
+from ..physics.calibration.load_cells import AS_MEASURED
 from ..recordings.errors import RecordingError
 from ..recordings.recording import Recording
+from ..recordings.scaling import corrected
 from . import figure_calibration, figure_recording
-from .calibration_options import add_calibration_options, calibration_from
+from .calibration_options import Fitted, add_calibration_options, calibration_from
 from .calibration_text import (
+    LAW_TITLES,
     PARAMETER_TITLES,
     calibration_facts,
     correlation_rows,
+    law_facts,
+    law_rows,
     parameter_rows,
 )
 from .figure_calibration import draw_calibration
 from .figure_recording import draw_replay
 from .figures import svg_of
-from .options import add_design_option, design_from
-from .recording_options import add_recording_options, recording_from, report_damage
+from .options import add_design_option, add_load_options
+from .recording_options import add_recording_options, report_damage, unit_and_recording
 from .replay import add_estimation_options, replay_from
 from .replay_text import replay_facts
 from .tables import Facts
@@ -68,6 +73,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_recording_options(parser)
     add_design_option(parser)
     add_estimation_options(parser)
+    add_load_options(parser)
     add_calibration_options(parser)
     parser.add_argument(
         '--output', type=Path, required=True, metavar='FILE.html', help='the report'
@@ -79,27 +85,29 @@ def run(options: argparse.Namespace) -> int:
     path: Path = options.output
     if path.suffix != '.html':
         raise OutputError(f'{path}: a report is written to a file ending in .html')
-    recording = recording_from(options)
-    start = design_from(options)
+    unit, recording = unit_and_recording(options)
+    start = unit.design
     parts = []
     if recording.damage:
         parts.append(_warning(f'Not all of it could be read: {recording.damage_summary}'))
     note = ''
     try:
-        calibration = calibration_from(options, start, recording)
+        fit = calibration_from(options, unit, recording)
     except (CalibrationError, RecordingError) as error:
         design, of = start, _start_name(options)
         fitted = ['<h2>Calibration</h2>', _warning(f'Nothing could be fitted: {error}')]
         note = f'tendon-statics: {path} has no calibration: {error}'
     else:
+        calibration = fit.calibration
         design, of = calibration.design or start, 'the fitted design'
+        recording = corrected(recording, calibration.cells or AS_MEASURED)
         if calibration.design is None:
             of = f'{_start_name(options)}, since the fit does not determine a design'
-        fitted = _calibration_part(calibration, recording, _start_name(options))
-    replayed = replay_from(options, design, recording)
+        fitted = _calibration_part(fit, recording, _start_name(options))
+    replayed = replay_from(options, unit, design, recording)
     parts += [
         f'<h2>Recording, with {escape(of)}</h2>',
-        _facts(replay_facts(replayed)),
+        _facts(replay_facts(replayed, design)),
         svg_of(
             lambda drawing: draw_replay(drawing, design, replayed),
             figure_recording.SIZE,
@@ -125,16 +133,17 @@ def _start_name(options: argparse.Namespace) -> str:
     return Path(options.design).name if options.design else 'the preliminary design'
 
 
-def _calibration_part(calibration: Calibration, recording: Recording, start: str) -> list[str]:
+def _calibration_part(fit: Fitted, recording: Recording, start: str) -> list[str]:
+    calibration, comparison = fit
     names = [parameter.name for parameter in calibration.parameters]
     parts = [
         '<h2>Calibration</h2>',
         *map(_warning, calibration.warnings),
         _facts([('start', start), *calibration_facts(calibration, recording.name)]),
-        _table(
-            [title.removesuffix(':') for title in PARAMETER_TITLES], parameter_rows(calibration)
-        ),
     ]
+    if comparison is not None:
+        parts += [_table(LAW_TITLES, law_rows(comparison)), _facts(law_facts(comparison))]
+    parts.append(_table(PARAMETER_TITLES, parameter_rows(calibration)))
     if len(names) > 1:
         parts.append(_table(['correlation', *names], correlation_rows(calibration)))
     parts.append(
@@ -148,17 +157,21 @@ def _calibration_part(calibration: Calibration, recording: Recording, start: str
 
 def _design_table(start: JointDesign, design: JointDesign) -> str:
     rows = []
-    for parameter in design_parameters():
-        before, after = (getattr(of, parameter.name) for of in (start, design))
+    for field in design_fields():
+        before, after = (_plain(getattr(of, field.name)) for of in (start, design))
         rows.append(
             (
-                parameter.name,
-                f'{after:.7g}',
-                parameter.unit or '1',
-                parameter.description + (f' (fitted; was {before:.7g})' * (before != after)),
+                field.name,
+                after,
+                field.unit or '1',
+                field.description + (f' (fitted; was {before})' * (before != after)),
             )
         )
     return _table(('parameter', 'value', 'unit', 'meaning'), rows)
+
+
+def _plain(value: float | str) -> str:
+    return value if isinstance(value, str) else f'{value:.7g}'
 
 
 def _warning(text: str) -> str:

@@ -8,39 +8,37 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from ..recordings.load import load_recording
-from ..recordings.replay import replay
-from ..recordings.table_output import write_csv
-from .options import add_design_option, design_from
+from ..recordings.replay.estimates import replay
+from ..recordings.replay.table_output import write_csv
+from .options import add_design_option, add_load_options
 from .progress import with_progress
-from .recording_options import report_damage
+from .recorded_load import recorded_load
+from .recording_options import (
+    add_recording_options,
+    report_damage,
+    report_notes,
+    unit_and_recording,
+)
+from .replay import add_initial_bend_angle_option, initial_bend_angle_from
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the verb takes."""
-    parser.add_argument(
-        'file',
-        metavar='FILE.csv',
-        help='columns tension_l, tension_s in N and, if there are times, time',
-    )
-    parser.add_argument(
-        '--initial-bend-angle',
-        type=float,
-        default=0.0,
-        metavar='RAD',
-        help='where the unit is at first, in rad; default: %(default)s',
-    )
+    add_recording_options(parser)
+    add_initial_bend_angle_option(parser)
+    add_load_options(parser)
     add_design_option(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Print a row for each sample: angle in rad, regime, margin, certainty."""
-    recording = load_recording(options.file, progress=with_progress)
+    unit, recording = unit_and_recording(options)
     tracked = replay(
-        design_from(options),
+        unit.design,
         recording,
         'tracking',
-        initial_bend_angle=options.initial_bend_angle,
+        load=recorded_load(options, unit, recording),
+        initial_bend_angle=initial_bend_angle_from(options, unit),
         progress=with_progress,
     )
     columns: dict[str, NDArray[Any]] = {}
@@ -55,4 +53,5 @@ def run(options: argparse.Namespace) -> int:
         'angle_assured': tracked.angle_assured,
     }
     write_csv(sys.stdout, columns)
+    report_notes(unit, recording)
     return report_damage(recording)

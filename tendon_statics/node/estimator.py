@@ -26,17 +26,19 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
+from ..files.number_parameter import SettingError
 from ..physics import (
     BendAngleError,
     Equilibrium,
     StickSlipTracker,
     TensionError,
-    TrackedState,
     solve,
 )
+from ..tensions.cable_scale import scaled, worse
+from ..tensions.reason import Reason
 from . import messages
 from .health import Health, Level
-from .number_parameter import SettingError
+from .lost_messages import LostMessages
 from .outputs import INVALID, STALE, Outputs
 from .program import StartError
 from .settings import Settings, declare_settings, read_settings
@@ -44,10 +46,8 @@ from .tension_source import (
     ArraySource,
     JointStateSource,
     Reading,
-    Reason,
     TensionSource,
     WrenchPairSource,
-    calibrated,
 )
 from .unknown_parameters import warn_of_unknown_parameters
 from .waiting_messages import waiting_messages
@@ -95,8 +95,7 @@ class Estimator(LifecycleNode):
         self._invalid_since_latest = 0
         self._rejected_corrections = 0
         self._reported_level = Level.OK
-        self._newest: dict[str, int] = {}  # topic → number that its publisher gave a message
-        self._publisher_counts: dict[str, int] = {}  # topic → how many, at the last report
+        self._lost: dict[str, LostMessages] = {}  # by topic of tensions
         self._arrival = 0  # of the present message, in ns since 1970
         self._has_run = False
         self._has_said_stale = True
@@ -149,26 +148,23 @@ class Estimator(LifecycleNode):
         self, topic: str, message_type: type, take: Callable[[Any], None]
     ) -> Subscription:
         """Subscribe to a topic of the source; count what comes and what is lost on the way."""
+        lost = self._lost[topic] = LostMessages()
 
-        def take_arrived(message: Any, arrival: int) -> None:
+        def take_arrived(message: Any, arrival: int | None) -> None:
             if self._state == ACTIVE:
-                # 0 where the middleware does not tell
-                self._arrival = arrival if arrival > 0 else time.time_ns()
+                self._arrival = arrival or time.time_ns()
                 self._health.received += 1
                 take(message)
 
         def on_message(message: Any) -> None:
-            take_arrived(message, 0)
+            take_arrived(message, None)
 
-        def on_numbered_message(message: Any, info: dict[str, int]) -> None:
-            number, before = info['publication_sequence_number'], self._newest.get(topic, 0)
-            self._newest[topic] = number
-            # Two publishers number each for itself, and one that begins anew at 1.
-            if 0 < before < number - 1 and self._is_alone(subscription):
-                self._health.note_lost(number - before - 1)
-            take_arrived(message, info['received_timestamp'])
+        # A middleware may leave out any part of the info, or say 0.
+        def on_numbered_message(message: Any, info: dict[str, int | None]) -> None:
+            lost.note(info.get('publication_sequence_number'))
+            take_arrived(message, info.get('received_timestamp'))
 
-        def on_numbered_messages(message: Any, info: dict[str, int]) -> None:
+        def on_numbered_messages(message: Any, info: dict[str, int | None]) -> None:
             on_numbered_message(message, info)
             for waiting in waiting_messages(subscription, MOST_AT_ONCE):
                 on_numbered_message(*waiting)
@@ -177,11 +173,6 @@ class Estimator(LifecycleNode):
             message_type, topic, on_numbered_messages if self._sees_numbers else on_message
         )
         return subscription
-
-    def _is_alone(self, subscription: Subscription) -> bool:
-        """Whether its topic has one publisher, now and at the last report."""
-        before = self._publisher_counts.get(subscription.topic_name, 0)
-        return before <= 1 and subscription.get_publisher_count() == 1
 
     def _subscription(
         self, message_type: type, topic: str, callback: Callable[..., None]
@@ -289,7 +280,8 @@ class Estimator(LifecycleNode):
 
     def _let_pass_what_waits(self) -> None:
         """Take the messages that came while inactive, which are not of the present."""
-        self._newest.clear()
+        for lost in self._lost.values():
+            lost.forget()
         for subscription in self._subscriptions_by_topic.values():
             for _ in waiting_messages(subscription, INPUT_DEPTH):
                 pass
@@ -372,12 +364,11 @@ class Estimator(LifecycleNode):
 
     def _on_reading(self, reading: Reading) -> None:
         settings = self._settings
-        tension_l, fault_l = calibrated('tension_l', reading.value_l, settings.cable_l)
-        tension_s, fault_s = calibrated('tension_s', reading.value_s, settings.cable_s)
-        faults = [fault for fault in (fault_l, fault_s) if fault]
-        if faults:
-            # The implausible one first, since it is an error.
-            self._on_drop(*max(faults, key=lambda fault: fault[0] is Reason.IMPLAUSIBLE))
+        tension_l, fault_l = scaled('tension_l', reading.value_l, settings.cable_l)
+        tension_s, fault_s = scaled('tension_s', reading.value_s, settings.cable_s)
+        fault = worse(fault_l, fault_s)
+        if fault:
+            self._on_drop(*fault)
             return
         if self._health.stale and not self._is_corrected():
             self._doubt()
@@ -419,7 +410,7 @@ class Estimator(LifecycleNode):
 
     def _result(
         self, tracker: StickSlipTracker | None, tension_l: float, tension_s: float
-    ) -> Equilibrium | TrackedState:
+    ) -> Equilibrium:
         if tracker is None:
             return solve(self._settings.design, tension_l, tension_s)
         return tracker.update(tension_l, tension_s)
@@ -489,7 +480,6 @@ class Estimator(LifecycleNode):
         """Say once that no more tensions come; what is drawn or remembered is not vouched for."""
         self._lose_sight()
         self._source.loosen()
-        self._newest.clear()
         self.get_logger().warning(
             f'No valid tensions on {self._input_names()} for {self._settings.input_timeout:g} s',
             **self._throttled,
@@ -506,6 +496,7 @@ class Estimator(LifecycleNode):
         self._outputs.clear_drawing()
 
     def _on_report_time(self) -> None:
+        self._settle_losses()
         self._report()
         self._health.begin_period()
         self._reported_level = self._health.level
@@ -520,15 +511,15 @@ class Estimator(LifecycleNode):
 
     def _report(self, note: str = '') -> None:
         self._reported_level = self._health.level
+        self._health.counts_lost &= all(lost.are_counted for lost in self._lost.values())
         name = self.get_fully_qualified_name().lstrip('/')
-        self._publisher_counts = {
-            subscription.topic_name: subscription.get_publisher_count()
-            for subscription in self._inputs.values()
-        }
         status = self._health.status(
             f'{name}: estimation',
             self._wiring.joint_name,
-            self._publisher_counts,
+            {
+                subscription.topic_name: subscription.get_publisher_count()
+                for subscription in self._inputs.values()
+            },
             self._misfit(),
             note,
         )
@@ -537,6 +528,19 @@ class Estimator(LifecycleNode):
             KeyValue(key='design values left at the preliminary design', value=left_out)
         )
         self._outputs.report(status)
+
+    def _settle_losses(self) -> None:
+        if not self._health.counts_lost:
+            return
+        for topic, subscription in self._inputs.items():
+            lost = self._lost[topic]
+            heard = [
+                tuple(info.endpoint_gid)
+                for info in self.get_publishers_info_by_topic(topic)
+                if not self._misfit_of(info, subscription)
+            ]
+            if count := lost.settle(heard):
+                self._health.note_lost(count)
 
     def _misfit(self) -> str:
         """Say which publishers are not heard, and why; empty if all are."""

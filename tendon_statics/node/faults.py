@@ -10,7 +10,7 @@ import random
 from bisect import bisect
 from typing import Any, NamedTuple
 
-from .number_parameter import NumberParameter, SettingError
+from ..files.number_parameter import NumberParameter, SettingError
 
 IMPLAUSIBLE_TENSION = 1e6
 """N; the height of a spike"""

@@ -8,8 +8,8 @@ from enum import IntEnum
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
-from ..physics import Equilibrium, Regime, TrackedState
-from .tension_source import Reason
+from ..physics import Equilibrium, Regime
+from ..tensions.reason import Reason
 
 
 class Level(IntEnum):
@@ -42,7 +42,7 @@ class Health:
     """
 
     def __init__(self, *, counts_lost: bool = True) -> None:
-        self._counts_lost = counts_lost
+        self.counts_lost = counts_lost
         self.received = 0
         self.solved = 0
         self.lost = 0
@@ -76,7 +76,7 @@ class Health:
             return Level.STALE
         return Level.WARN if self._is_warned else Level.OK
 
-    def note_result(self, result: Equilibrium | TrackedState, solve_time: float) -> None:
+    def note_result(self, result: Equilibrium, solve_time: float) -> None:
         """Count a pair that was solved, in so many seconds."""
         self.solved += 1
         self.stale = False
@@ -84,10 +84,10 @@ class Health:
         self._regime = result.regime.value
         self._solve_time += solve_time
         self._longest_solve = max(self._longest_solve, solve_time)
-        if isinstance(result, Equilibrium) and result.regime is Regime.HELD:
+        if not result.is_tracked and result.regime is Regime.HELD:
             self._held += 1
             self._is_warned = True
-        if isinstance(result, TrackedState) and not result.angle_assured:
+        if not result.angle_assured:
             self._unassured += 1
             self._is_warned = True
         if result.branch_consistent is False:
@@ -162,7 +162,7 @@ class Health:
             'longest solve time [ms]': f'{self._longest_solve * 1e3:.3f}' if solved else '',
             'messages received': str(self.received),
             'pairs solved': str(self.solved),
-            'messages lost on the way': str(self.lost) if self._counts_lost else 'not counted',
+            'messages lost on the way': str(self.lost) if self.counts_lost else 'not counted',
             **{f'dropped: {reason.value}': str(self.dropped[reason]) for reason in Reason},
             'last drop': self.last_drop,
             **{f'publishers on {topic}': str(count) for topic, count in publishers.items()},

@@ -10,7 +10,7 @@ from geometry_msgs.msg import Point
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ..physics import Equilibrium, JointDesign, Regime, TrackedState
+from ..physics import Equilibrium, JointDesign, Regime
 
 NAMESPACE = 'tendon_statics'
 UNIT, BAND, LABEL = range(3)
@@ -30,7 +30,7 @@ COLOURS = {
 
 def unit_markers(
     design: JointDesign,
-    result: Equilibrium | TrackedState,
+    result: Equilibrium,
     intervals: Sequence[tuple[float, float]],
     header: Header,
 ) -> MarkerArray:

@@ -14,7 +14,6 @@ from ..physics import (
     Equilibrium,
     JointDesign,
     TensionGradient,
-    TrackedState,
     UnreachableError,
     tensions_for,
 )
@@ -100,7 +99,7 @@ def fill_unit_pose(
 
 def fill_estimate(
     message: Estimate,
-    result: Equilibrium | TrackedState,
+    result: Equilibrium,
     margin: float | None,
     intervals: Sequence[tuple[float, float]],
     tension_stddev: float,
@@ -125,7 +124,7 @@ def fill_estimate(
     message.normal_force = _number(result.normal_force)
     message.slip_margin = _number(margin)
     message.admissible_angles = [end for interval in intervals for end in interval]
-    if isinstance(result, Equilibrium):
+    if not result.is_tracked:
         message.angle_assured = result.bend_angle is not None
         message.root_count = result.root_count
         message.stable = bool(result.stable)

@@ -19,7 +19,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray, Header, String
 from visualization_msgs.msg import MarkerArray
 
-from ..physics import Equilibrium, Regime, TrackedState, admissible_angles, slip_margin
+from ..physics import Equilibrium, Regime, admissible_angles, slip_margin
 from . import messages
 from .markers import no_markers, unit_markers
 from .settings import Settings
@@ -43,7 +43,7 @@ class Finding:
 
     def __init__(
         self,
-        result: Equilibrium | TrackedState,
+        result: Equilibrium,
         settings: Settings,
         header: Header,
         stamp: Callable[[], Time],
@@ -192,7 +192,7 @@ class Outputs:
 
     def publish(
         self,
-        result: Equilibrium | TrackedState,
+        result: Equilibrium,
         settings: Settings,
         stamp: Callable[[], Time],
     ) -> None:

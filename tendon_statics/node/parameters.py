@@ -9,23 +9,10 @@ from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescri
 from rclpy.exceptions import InvalidParameterValueException
 from rclpy.node import Node
 
-from .number_parameter import NumberParameter, SettingError
-from .tension_kinds import TENSION_SOURCES
+from ..files.number_parameter import NumberParameter, SettingError
+from ..files.unit_file import check_cable_names
+from ..files.unit_parameters import CABLES, TENSION_SOURCES
 from .tension_source import COMPONENTS
-
-CABLES = ('cable_l', 'cable_s')
-
-GAINS = tuple(
-    NumberParameter(
-        *(f'{cable}.gain', 1.0, -1e6, 1e6, 'N'),
-        'newtons per unit of what is measured: tension = gain * value + bias; not 0',
-    )
-    for cable in CABLES
-)
-BIASES = tuple(
-    NumberParameter(f'{cable}.bias', 0.0, -1e6, 1e6, 'N', 'tension at the measured value 0')
-    for cable in CABLES
-)
 
 
 def declare_fixed(node: Node, name: str, default: Any, description: str, **more: Any) -> Any:
@@ -67,12 +54,7 @@ def declare_cable_names(node: Node) -> tuple[str, str]:
         list(CABLES),
         'joint_state: names of cables l and s, whose tensions are in effort',
     )
-    names = list(names or ())  # an empty list comes as None
-    if len(names) != 2 or len(set(names)) != 2 or '' in names:
-        raise SettingError(
-            f'cable_names is {names!r}, two different names are needed, of cables l and s'
-        )
-    return names[0], names[1]
+    return check_cable_names(list(names or ()))  # an empty list comes as None
 
 
 def declare_wrench_component(node: Node) -> str:

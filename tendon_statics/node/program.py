@@ -13,8 +13,10 @@ from importlib import import_module
 from types import FrameType
 from typing import Any
 
+from ..physics.errors import TendonStaticsError
 
-class StartError(Exception):
+
+class StartError(TendonStaticsError):
     """A node cannot start; the text is for the user."""
 
 
@@ -40,6 +42,8 @@ def _run(name: str, node_class: str, arguments: Sequence[str] | None) -> int:
         from rclpy.exceptions import ParameterException
         from rclpy.executors import ExternalShutdownException
         from rclpy.utilities import remove_ros_args
+
+        from ..files.parameter_file import ESTIMATOR, check_parameter_files
 
         make_node = getattr(import_module(f'{__package__}.{name}'), node_class)
     except ImportError as error:
@@ -70,7 +74,10 @@ def _run(name: str, node_class: str, arguments: Sequence[str] | None) -> int:
         if interrupted:
             return 0
         try:
+            check_parameter_files(arguments)
             node = make_node()
+            if name == ESTIMATOR:
+                check_parameter_files(arguments, node.get_fully_qualified_name())
         except (StartError, ParameterException, RuntimeError, ValueError) as error:
             # RuntimeError and ValueError are rclpy's own, of bad overrides and names.
             return _say(name, error) if rclpy.ok() else 0

@@ -15,14 +15,13 @@ from rclpy.clock import Clock, ClockType
 from rclpy.logging import get_logger
 from rclpy.node import Node
 
-from ..installed_files import installed_config
+from ..files.installed_files import installed_config
+from ..files.number_parameter import NumberParameter, SettingError
+from ..files.unit_parameters import BIASES, GAINS
 from ..recordings.errors import RecordingError
-from ..recordings.load import load_recording
+from ..recordings.reading.load import load_recording
 from .faults import STAMP_FAULTS, Fault, FaultMaker, FaultSettings, Reading, fault_parameters
-from .number_parameter import NumberParameter, SettingError
 from .parameters import (
-    BIASES,
-    GAINS,
     declare_cable_names,
     declare_fixed,
     declare_number,

@@ -3,53 +3,28 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 
-from ..design_file import default_design_path, load_design
-from ..physics import BendAngleError, DesignError, JointDesign, design_parameters
+from ..files.design_file import default_design_path, load_design
+from ..files.number_parameter import NumberParameter, SettingError
+from ..files.unit_file import cable_scale
+from ..files.unit_parameters import NUMBERS
+from ..physics import (
+    BendAngleError,
+    DesignError,
+    DesignParameter,
+    JointDesign,
+    design_fields,
+)
 from ..physics.admissible import check_bend_angle
-from ..physics.solver import MAX_TENSION
-from .number_parameter import NumberParameter, SettingError
-from .parameters import BIASES, CABLES, GAINS, declare_number
-from .tension_source import Calibration
+from ..tensions.cable_scale import CableScale
+from .parameters import declare_number
 
 PREFIX = 'design.'
-
-
-MAX_TENSIONS = tuple(
-    NumberParameter(
-        *(f'{cable}.max_tension', 1000.0, 0.001, MAX_TENSION, 'N'),
-        'above it a tension is implausible',
-    )
-    for cable in CABLES
-)
-
-NUMBERS = (
-    NumberParameter(
-        *('tension_stddev', 0.01, 0.0, 1000.0, 'N'),
-        'standard deviation of each measured tension, the two independent',
-    ),
-    NumberParameter(
-        *('initial_bend_angle', 0.0, -0.5 * math.pi, 0.5 * math.pi, 'rad'),
-        'where a tracked unit is at the start and after ~/reset, within its stops',
-    ),
-    NumberParameter(
-        *('input_timeout', 0.5, 0.001, 3600.0, 's'),
-        'without valid tensions for so long the input is stale',
-    ),
-    NumberParameter(
-        *('max_skew', 0.005, 0.0, 10.0, 's'),
-        'wrench_pair: most that the stamps of two load cells may differ in a pair',
-    ),
-    *GAINS,
-    *BIASES,
-    *MAX_TENSIONS,
-)
-"""Those that may change while the node runs, beside the design's"""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -61,8 +36,8 @@ class Settings:
     initial_bend_angle: float
     input_timeout: float
     max_skew: float
-    cable_l: Calibration
-    cable_s: Calibration
+    cable_l: CableScale
+    cable_s: CableScale
 
     @classmethod
     def from_values(cls, values: Mapping[str, object]) -> Settings:
@@ -91,8 +66,8 @@ class Settings:
             initial_bend_angle=initial_bend_angle,
             input_timeout=number['input_timeout'],
             max_skew=number['max_skew'],
-            cable_l=_calibration('cable_l', number),
-            cable_s=_calibration('cable_s', number),
+            cable_l=cable_scale('cable_l', number),
+            cable_s=cable_scale('cable_s', number),
         )
 
 
@@ -116,14 +91,14 @@ def declare_settings(node: Node) -> set[str]:
         value = overrides[PREFIX[:-1]].value
         raise SettingError(f'design is {value!r}, but its parameters have names: {PREFIX}mass')
     given = [name[len(PREFIX) :] for name in overrides if name.startswith(PREFIX)]
-    known = {parameter.name for parameter in design_parameters()}
+    known = {field.name for field in design_fields()}
     for name in given:
         if name not in known:
             _design({PREFIX + name: overrides[PREFIX + name].value})
     left_out = [
-        parameter.name
-        for parameter in design_parameters()
-        if parameter.name not in given and parameter.default is None
+        field.name
+        for field in design_fields()
+        if field.name not in given and field.default is None
     ]
     if not given:
         node.get_logger().warning(
@@ -135,18 +110,27 @@ def declare_settings(node: Node) -> set[str]:
             'The parameters give a part of the design only; taken from the preliminary design: '
             + ', '.join(f'{PREFIX}{name} = {getattr(default, name)!r}' for name in left_out)
         )
-    for parameter in design_parameters():
-        declare_number(
-            node,
-            NumberParameter(
-                name=PREFIX + parameter.name,
-                default=getattr(default, parameter.name),
-                minimum=parameter.minimum,
-                maximum=parameter.maximum,
-                unit=parameter.unit,
-                description=f'{parameter.description} ({parameter.symbol})',
-            ),
-        )
+    for field in design_fields():
+        if isinstance(field, DesignParameter):
+            declare_number(
+                node,
+                NumberParameter(
+                    name=PREFIX + field.name,
+                    default=getattr(default, field.name),
+                    minimum=field.minimum,
+                    maximum=field.maximum,
+                    unit=field.unit,
+                    description=f'{field.description} ({field.symbol})',
+                ),
+            )
+        else:
+            node.declare_parameter(
+                PREFIX + field.name,
+                getattr(default, field.name),
+                ParameterDescriptor(
+                    description=field.description, additional_constraints=field.allowed
+                ),
+            )
     for number in NUMBERS:
         declare_number(node, number)
     return {PREFIX + name for name in left_out}
@@ -161,7 +145,7 @@ def read_settings(node: Node, changes: Iterable[Any] = ()) -> Settings:
         If the whole is not valid.
     """
     names = [number.name for number in NUMBERS]
-    names += [PREFIX + parameter.name for parameter in design_parameters()]
+    names += [PREFIX + field.name for field in design_fields()]
     values = {name: node.get_parameter(name).value for name in names}
     return Settings.from_values(values | {change.name: change.value for change in changes})
 
@@ -177,12 +161,3 @@ def _design(values: Mapping[str, object]) -> JointDesign:
         )
     except DesignError as error:
         raise SettingError(f'{PREFIX if error.key else ""}{error}') from None
-
-
-def _calibration(cable: str, number: Mapping[str, float]) -> Calibration:
-    calibration = Calibration(*(number[f'{cable}.{field}'] for field in Calibration._fields))
-    if calibration.gain == 0.0:
-        raise SettingError(
-            f'{cable}.gain is 0.0, with which the tension does not follow what is measured'
-        )
-    return calibration

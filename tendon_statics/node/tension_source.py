@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections import deque
 from collections.abc import Callable
-from enum import Enum
 from typing import Any, NamedTuple
 
 from builtin_interfaces.msg import Time
@@ -13,13 +11,9 @@ from geometry_msgs.msg import Vector3, WrenchStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
-NANOSECONDS = 1_000_000_000
-
-MOST_WAITING = 1000
-"""Messages of one load cell that wait for those of the other"""
-
-ROUNDING = 1e-15
-"""Relative error of a sum of two numbers that nearly cancel"""
+from ..tensions.named_values import cable_values
+from ..tensions.pairing import NANOSECONDS, Pairing, Single
+from ..tensions.reason import Reason
 
 RISING = 3
 """Stamps in a row"""
@@ -31,25 +25,6 @@ COMPONENTS: dict[str, Callable[[Vector3], float]] = {
     'norm': lambda force: math.hypot(force.x, force.y, force.z),
 }
 """Of the force of a load cell"""
-
-
-class Reason(str, Enum):
-    """Why a message was dropped."""
-
-    WRONG_LENGTH = 'wrong length'
-    MISSING_CABLE = 'missing cable'
-    NOT_FINITE = 'not finite'
-    NEGATIVE = 'negative'
-    IMPLAUSIBLE = 'implausible'
-    BELOW_WEIGHT = 'below the weight'
-    OUT_OF_ORDER = 'out of order'
-    REPEATED_STAMP = 'repeated stamp'
-    UNPAIRED = 'unpaired'
-
-    @property
-    def is_of_content(self) -> bool:
-        """Whether the message holds no pair of tensions, and not only comes at the wrong time."""
-        return self not in (Reason.OUT_OF_ORDER, Reason.REPEATED_STAMP, Reason.UNPAIRED)
 
 
 class Reading(NamedTuple):
@@ -142,22 +117,16 @@ class JointStateSource(TensionSource):
         if late:
             self._drop(*late)
             return
-        names, efforts = message.name, message.effort
-        values: list[float] = []
-        for cable in self._cable_names:
-            if cable not in names:
-                there = ', '.join(names) or 'none'
-                self._drop(Reason.MISSING_CABLE, f'no {cable} among the names: {there}')
-                return
-            place = names.index(cable)
-            if place >= len(efforts):
-                self._drop(
-                    Reason.WRONG_LENGTH,
-                    f'{len(names)} names came with {len(efforts)} efforts, {cable} has none',
-                )
-                return
-            values.append(efforts[place])
-        self._deliver(Reading(values[0], values[1], message.header.stamp))
+        found = cable_values(message.name, message.effort, self._cable_names)
+        if found.fault is not None:
+            self._drop(*found.fault)
+            return
+        if found.value_l is None or found.value_s is None:
+            missing = self._cable_names[0 if found.value_l is None else 1]
+            there = ', '.join(message.name) or 'none'
+            self._drop(Reason.MISSING_CABLE, f'no {missing} among the names: {there}')
+            return
+        self._deliver(Reading(found.value_l, found.value_s, message.header.stamp))
 
 
 class WrenchPairSource(TensionSource):
@@ -180,10 +149,7 @@ class WrenchPairSource(TensionSource):
         super().__init__(deliver, drop, 'tension_l', 'tension_s')
         self._component = COMPONENTS[component]
         self._max_skew = max_skew
-        self._paired = dict.fromkeys(self._orders, -math.inf)
-        self._waiting: dict[str, deque[tuple[int, float, Time]]] = {
-            topic: deque() for topic in self._orders
-        }
+        self._pairing = Pairing(max_skew, self._deliver_pair, self._drop_single)
         self.inputs = {
             'tension_l': (WrenchStamped, lambda message: self._take('tension_l', message)),
             'tension_s': (WrenchStamped, lambda message: self._take('tension_s', message)),
@@ -192,53 +158,27 @@ class WrenchPairSource(TensionSource):
     def forget(self) -> None:
         """As in `TensionSource`; what still waits is dropped."""
         super().forget()
-        self._paired = dict.fromkeys(self._orders, -math.inf)
-        for topic, waiting in self._waiting.items():
-            while waiting:
-                self._drop_first(topic)
+        self._pairing.forget()
 
     def _take(self, topic: str, message: WrenchStamped) -> None:
-        order, waiting = self._orders[topic], self._waiting[topic]
-        late = order.objection(message.header.stamp)
+        stamp = message.header.stamp
+        late = self._orders[topic].objection(stamp)
         if late:
             self._drop(late[0], f'{topic}: {late[1]}')
             return
-        stamp = nanoseconds(message.header.stamp)
-        while waiting and waiting[-1][0] >= stamp:  # The order has begun anew.
-            self._drop_first(topic)
-        waiting.append((stamp, self._component(message.wrench.force), message.header.stamp))
-        if len(waiting) > MOST_WAITING:
-            self._drop_first(topic)
-        self._pair()
+        value = self._component(message.wrench.force)
+        cable = 0 if topic == 'tension_l' else 1
+        self._pairing.take(cable, Single(nanoseconds(stamp), value, stamp))
 
-    def _pair(self) -> None:
-        """Deliver every pair, and drop what has no partner any more."""
-        at_l, at_s = self._waiting.values()
-        skew = self._max_skew() * NANOSECONDS
-        while at_l and at_s:
-            difference = at_l[0][0] - at_s[0][0]
-            if abs(difference) > skew:
-                self._drop_first('tension_l' if difference < 0 else 'tension_s')
-                continue
-            # Where max_skew exceeds the period, one lost message must not shift all pairs after
-            # it: what is much nearer to a message that already has a partner is left out. Not
-            # what is a little nearer: cells that run freely may be half a period apart.
-            if abs(at_l[0][0] - self._paired['tension_s']) < 0.5 * abs(difference):
-                self._drop_first('tension_l')
-                continue
-            if abs(at_s[0][0] - self._paired['tension_l']) < 0.5 * abs(difference):
-                self._drop_first('tension_s')
-                continue
-            (stamp_l, value_l, time_l), (stamp_s, value_s, time_s) = at_l.popleft(), at_s.popleft()
-            self._paired = {'tension_l': stamp_l, 'tension_s': stamp_s}
-            self._deliver(Reading(value_l, value_s, time_l if stamp_l >= stamp_s else time_s))
+    def _deliver_pair(self, of_l: Single, of_s: Single) -> None:
+        later = of_l if of_l.time >= of_s.time else of_s
+        self._deliver(Reading(of_l.value, of_s.value, later.source))
 
-    def _drop_first(self, topic: str) -> None:
-        stamp, _, _ = self._waiting[topic].popleft()
+    def _drop_single(self, cable: int, single: Single) -> None:
         self._drop(
             Reason.UNPAIRED,
-            f'{topic} of {_seconds(stamp)} s has no partner of its own within max_skew, '
-            f'{self._max_skew():g} s',
+            f'{"tension_s" if cable else "tension_l"} of {_seconds(single.time)} s has no partner '
+            f'of its own within max_skew, {self._max_skew():g} s',
         )
 
 
@@ -273,33 +213,6 @@ class StampOrder:
         else:
             text = f'the stamp is {_seconds(time)} s, after {_seconds(newest)} s'
         return (Reason.REPEATED_STAMP if time == newest else Reason.OUT_OF_ORDER), text
-
-
-class Calibration(NamedTuple):
-    """How a cable's tension in N follows from what is measured: gain * value + bias."""
-
-    gain: float
-    bias: float
-    max_tension: float
-
-
-def calibrated(
-    name: str, value: float, calibration: Calibration
-) -> tuple[float, tuple[Reason, str] | None]:
-    """Return a measured value as a tension in N, and what is against it."""
-    tension = calibration.gain * value + calibration.bias
-    if abs(tension) < ROUNDING * abs(calibration.bias):  # of a slack cable
-        tension = 0.0
-    if 0.0 <= tension <= calibration.max_tension:
-        return tension, None
-    allowed = f'allowed is 0 to {calibration.max_tension:g} N'
-    if not math.isfinite(tension):
-        reason = Reason.NOT_FINITE
-    elif abs(tension) > calibration.max_tension:
-        reason = Reason.IMPLAUSIBLE
-    else:
-        reason = Reason.NEGATIVE
-    return tension, (reason, f'{name} is {tension!r} N, {allowed}')
 
 
 def nanoseconds(stamp: Time) -> int:

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from rclpy.node import Node
 
-from ..physics import design_parameters
+from ..files.unit_parameters import NUMBERS
+from ..physics import design_fields
 from .faults import fault_parameters
-from .settings import NUMBERS, PREFIX
+from .settings import PREFIX
 from .wiring import Wiring
 
 ESTIMATOR_PARAMETERS = (
     *Wiring._fields,
     *(number.name for number in NUMBERS),
-    *(PREFIX + parameter.name for parameter in design_parameters()),
+    *(PREFIX + field.name for field in design_fields()),
 )
 DRIVER_PARAMETERS = (
     *('file', 'loop', 'rate', 'count', 'awaited_subscribers'),

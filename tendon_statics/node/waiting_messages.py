@@ -10,7 +10,7 @@ from rclpy.subscription import Subscription
 
 def waiting_messages(
     subscription: Subscription, most: int
-) -> Iterator[tuple[Any, dict[str, int]]]:
+) -> Iterator[tuple[Any, dict[str, int | None]]]:
     """Take what waits for a subscription, `most` messages at the most; each with its info.
 
     For every message that rclpy's executor takes it gathers all that the node has, twice. In a

@@ -3,49 +3,68 @@
 from typing import TYPE_CHECKING, Any
 
 from .admissible import admissible_angles, slip_margin
-from .contact import ContactCoefficients, ContactForces, ForceRemainder, contact_coefficients
-from .design import DesignParameter, JointDesign, design_parameters
-from .equations import residual
-from .equilibrium import Equilibrium, Regime
+from .contact import CONTACT_LAWS
+from .design import (
+    DesignChoice,
+    DesignParameter,
+    JointDesign,
+    design_fields,
+    design_parameters,
+)
+from .design_uncertainty import DesignUncertainty
 from .errors import (
     BendAngleError,
     CalibrationError,
     DesignError,
+    LoadError,
+    TendonStaticsError,
     TensionError,
     UnreachableError,
 )
-from .inverse import Tensions, tensions_for
-from .sensitivity import TensionGradient
-from .solver import solve
-from .tracker import StickSlipTracker, TrackedState
+from .forces import ContactCoefficients, ContactForces, ForceRemainder, contact_coefficients
+from .gradients import TensionGradient
+from .inverse import tensions_for
+from .load import UPRIGHT, Load
+from .solver import residual, solve
+from .state import Equilibrium, Regime
+from .tensions import Tensions
+from .tracker import StickSlipTracker
 
 if TYPE_CHECKING:
     from .batch import EquilibriumBatch, solve_batch
-    from .calibration import calibrate
-    from .calibration_result import Calibration
+    from .calibration import Calibration, LawComparison, calibrate, compare_laws
 
 __all__ = [
+    'CONTACT_LAWS',
+    'UPRIGHT',
     'BendAngleError',
     'Calibration',
     'CalibrationError',
     'ContactCoefficients',
     'ContactForces',
+    'DesignChoice',
     'DesignError',
     'DesignParameter',
+    'DesignUncertainty',
     'Equilibrium',
     'EquilibriumBatch',
     'ForceRemainder',
     'JointDesign',
+    'LawComparison',
+    'Load',
+    'LoadError',
     'Regime',
     'StickSlipTracker',
+    'TendonStaticsError',
     'TensionError',
     'TensionGradient',
     'Tensions',
-    'TrackedState',
     'UnreachableError',
     'admissible_angles',
     'calibrate',
+    'compare_laws',
     'contact_coefficients',
+    'design_fields',
     'design_parameters',
     'residual',
     'slip_margin',
@@ -61,12 +80,8 @@ def __getattr__(name: str) -> Any:
         from . import batch
 
         return getattr(batch, name)
-    if name == 'calibrate':
-        from .calibration import calibrate
+    if name in ('Calibration', 'LawComparison', 'calibrate', 'compare_laws'):
+        from . import calibration
 
-        return calibrate
-    if name == 'Calibration':
-        from .calibration_result import Calibration
-
-        return Calibration
+        return getattr(calibration, name)
     raise AttributeError(f'module {__name__!r} has no attribute {name!r}')

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .array_roots import ArraySlipEquation
-from .contact import Contact, ContactForces, ForceRemainder, split_contact
+from .array_numbers import ARRAYS
+from .array_roots import Floats, array_brackets, array_refine
 from .design import JointDesign
-from .equilibrium import Regime
-from .errors import TensionError
-from .sensitivity import TensionGradient, derivatives
-from .solver import MAX_TENSION, solve
+from .errors import LoadError, TensionError
+from .forces import Contact, ContactForces, ForceRemainder, contact_at
+from .gradients import TensionGradient, angle_by_tensions, normal_by_tensions, of_sides
+from .load import UPRIGHT, DeadLoad, Load, tension_excess
+from .slip import LoadedJoint, Slip, SlipPoint
+from .solver import solve
+from .state import Regime
+from .tensions import MAX_TENSION
 
 REGIME_CODES = {regime: code for code, regime in enumerate(Regime)}
 """Regime → its number in `EquilibriumBatch.regime`"""
@@ -29,8 +33,6 @@ CHUNK = 16384
 
 _NAMES = np.array([*(regime.value for regime in Regime), 'invalid'])
 
-Floats = NDArray[np.float64]
-
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class EquilibriumBatch:
@@ -41,6 +43,8 @@ class EquilibriumBatch:
     """
 
     design: JointDesign
+    load: Load | NDArray[np.object_]
+    """What acts beside the cables: one load, or an array of them of the shape of the results"""
     regime: NDArray[np.int8]
     """Numbers by `REGIME_CODES`; `INVALID` for a pair for which `solve` raises"""
     tension_l: Floats
@@ -53,10 +57,10 @@ class EquilibriumBatch:
     bend_angle: Floats
     """θ in rad"""
     normal_force: Floats
-    """N = p C w in N"""
+    """N in N"""
     stable: NDArray[np.bool_]
     residual: Floats
-    """g(θ) = N_m − N_f in N"""
+    """(|M| − K) / (μ r) in N"""
 
     @property
     def regime_names(self) -> NDArray[np.str_]:
@@ -70,6 +74,16 @@ class EquilibriumBatch:
         return self.normal_force / self.design.contact_area
 
     @property
+    def slip_margin(self) -> Floats:
+        """M / K at the angle: ±1 at the limit of friction, beyond that only against the stop."""
+        margins = np.empty(self.bend_angle.shape)
+        flat = margins.reshape(-1)
+        with np.errstate(all='ignore'):
+            for part, slip, point in self._points():
+                flat[part] = slip.side * point.moment / point.capacity
+        return np.where(np.isnan(self.bend_angle), np.nan, margins)
+
+    @property
     def forces(self) -> ContactForces:
         """The forces on the joint surface in N."""
         return self._contact.forces
@@ -81,8 +95,8 @@ class EquilibriumBatch:
 
     @property
     def branch_consistent(self) -> NDArray[np.bool_]:
-        """Whether μ N sin(β + θ) > W."""
-        flags: Any = self._contact.branch_consistent
+        """Whether Eqs. (1) and (2) ask for the contact force taken."""
+        flags: Any = self._contact.consistent
         return flags  # type: ignore[no-any-return]
 
     @property
@@ -110,53 +124,77 @@ class EquilibriumBatch:
     @cached_property
     def _contact(self) -> Contact:
         shape = self.bend_angle.shape
-        numbers: Any = np.empty((6, *shape))
-        consistent: Any = np.empty(shape, np.bool_)
+        numbers: Any = np.full((6, *shape), np.nan)
+        consistent: Any = np.zeros(shape, np.bool_)
         rows, flags = numbers.reshape(6, -1), consistent.reshape(-1)
         with np.errstate(all='ignore'):
-            for part, chunk in _chunks(*self._tensions, self.bend_angle, self.normal_force):
-                contact = _contact_of(self.design, *chunk)
-                rows[:, part] = (*contact.forces, *contact.remainder)
-                flags[part] = contact.branch_consistent
-        return Contact(ContactForces(*numbers[:4]), ForceRemainder(*numbers[4:]), consistent)
+            for at, slip, point in self._points():
+                contact = contact_at(slip, point, point.capacity)
+                rows[:, at] = (*contact.forces, *contact.remainder)
+                flags[at] = contact.consistent
+        return Contact(
+            self.normal_force,
+            ContactForces(*numbers[:4]),
+            ForceRemainder(*numbers[4:]),
+            consistent,
+        )
 
     @cached_property
     def _gradients(self) -> tuple[TensionGradient, TensionGradient]:
-        numbers: Any = np.empty((4, *self.bend_angle.shape))
+        numbers: Any = np.full((4, *self.bend_angle.shape), np.nan)
         rows = numbers.reshape(4, -1)
+        regimes = self.regime.reshape(-1)
         with np.errstate(all='ignore'):
-            for part, chunk in _chunks(*self._tensions, self.bend_angle, self.regime):
-                rows[:, part] = _gradients_of(self.design, *chunk)
+            for at, slip, point in self._points():
+                at_stop = regimes[at] == REGIME_CODES[Regime.DRIVEN_TO_STOP]
+                rows[:, at] = _gradients_of(self.design, slip, point, at_stop)
         return TensionGradient(*numbers[:2]), TensionGradient(*numbers[2:])
 
-    @property
-    def _tensions(self) -> tuple[Floats, Floats]:
-        return self.tension_l, self.tension_s
+    def _points(self) -> Iterator[tuple[NDArray[np.intp], Slip, SlipPoint]]:
+        """Walk through the pairs with an angle: yield where they are, and the slip functions."""
+        for part, chunk in _chunks(
+            *(self.tension_l, self.tension_s, self.bend_angle),
+            *_dead_arrays(self.design, self.load),
+        ):
+            (known,) = np.nonzero(~np.isnan(chunk[2]))
+            tension_l, tension_s, angle, *dead = (values[known] for values in chunk)
+            at = known + part.start
+            load = self.load if isinstance(self.load, Load) else self.load.reshape(-1)[at]
+            slip = _facing_slips(self.design, load, tension_l, tension_s, dead)
+            yield at, slip, slip.at(np.abs(angle))
 
 
 def solve_batch(
-    design: JointDesign, tension_l: ArrayLike, tension_s: ArrayLike
+    design: JointDesign,
+    tension_l: ArrayLike,
+    tension_s: ArrayLike,
+    load: Load | Sequence[Any] | NDArray[np.object_] = UPRIGHT,
 ) -> EquilibriumBatch:
     """Solve for many pairs of tensions: what `solve` answers for each, as arrays.
 
     The angles are those of `solve` to 1e-12 rad as a rule, and to 1e-9 always: each is found
-    within a bracket of 1e-10 rad over which g changes sign. A pair that `solve` would refuse does
-    not stop the others; its regime is `INVALID`.
+    within a bracket of 1e-10 rad over which the slip function changes sign. A pair that `solve`
+    would refuse does not stop the others; its regime is `INVALID`.
 
     Parameters
     ----------
     tension_l, tension_s : array_like
         Cable tensions T_l and T_s in N, of shapes that broadcast to one another.
+    load : Load or array_like of Load
+        What acts beside them: one for all, or of a shape that broadcasts with theirs.
 
     Raises
     ------
     TensionError
-        If the tensions are not numbers, or their shapes do not fit.
+        If the tensions are not numbers, or the shapes do not fit.
+    LoadError
+        If the loads are not loads.
     """
-    left, right = _broadcast(tension_l, tension_s)
+    left, right, load = _broadcast(tension_l, tension_s, load)
     shape = left.shape
     results = EquilibriumBatch(
         design=design,
+        load=load,
         regime=np.full(shape, INVALID, np.int8),
         tension_l=left,
         tension_s=right,
@@ -168,10 +206,15 @@ def solve_batch(
         residual=np.full(shape, np.nan),
     )
     flat = {name: getattr(results, name).reshape(-1) for name in _SOLVED}
+    loads = load if isinstance(load, Load) else load.reshape(-1)
     with np.errstate(all='ignore'):
-        for part, (chunk_l, chunk_s) in _chunks(left, right):
+        for part, (chunk_l, chunk_s, *dead) in _chunks(left, right, *_dead_arrays(design, load)):
             rows = {name: array[part] for name, array in flat.items()}
-            _solve_chunk(EquilibriumBatch(design, tension_l=chunk_l, tension_s=chunk_s, **rows))
+            of_chunk = loads if isinstance(loads, Load) else loads[part]
+            _solve_chunk(
+                EquilibriumBatch(design, of_chunk, tension_l=chunk_l, tension_s=chunk_s, **rows),
+                dead,
+            )
     return results
 
 
@@ -186,15 +229,17 @@ _SOLVED = (
 )
 
 
-def _broadcast(tension_l: ArrayLike, tension_s: ArrayLike) -> tuple[Floats, Floats]:
-    """Return the tensions as arrays of one shape.
+def _broadcast(
+    tension_l: ArrayLike, tension_s: ArrayLike, load: Any
+) -> tuple[Floats, Floats, Load | NDArray[np.object_]]:
+    """Return tensions, and loads if there are several, as arrays of one shape.
 
     Raises
     ------
-    TensionError
+    TensionError, LoadError
         As `solve_batch` does.
     """
-    arrays = []
+    arrays: list[NDArray[Any]] = []
     for name, values in (('tension_l', tension_l), ('tension_s', tension_s)):
         try:
             array = np.asarray(values)
@@ -205,14 +250,31 @@ def _broadcast(tension_l: ArrayLike, tension_s: ArrayLike) -> tuple[Floats, Floa
                 f'{name} has values of type {array.dtype}, real numbers are needed; in N'
             )
         arrays.append(array.astype(np.float64, copy=False))
+    shapes = f'tension_l has shape {arrays[0].shape} and tension_s {arrays[1].shape}'
+    if not isinstance(load, Load):
+        loads = np.asarray(load, dtype=object)
+        if not all(isinstance(one, Load) for one in loads.flat):
+            raise LoadError(f'load is {load!r}, but a Load, or an array of them, is needed')
+        arrays.append(loads)
+        shapes += f' and load {loads.shape}'
     try:
-        left, right = np.broadcast_arrays(*arrays)
+        left, right, *rest = np.broadcast_arrays(*arrays)
     except ValueError:
         raise TensionError(
-            f'tension_l has shape {arrays[0].shape} and tension_s {arrays[1].shape}, '
-            'which do not fit: equal shapes are needed, or ones that NumPy can broadcast'
+            f'{shapes}, which do not fit: equal shapes are needed, or ones that NumPy can '
+            'broadcast'
         ) from None
-    return left, right
+    return left, right, rest[0] if rest else load
+
+
+def _dead_arrays(
+    design: JointDesign, load: Load | NDArray[np.object_]
+) -> tuple[NDArray[Any], ...]:
+    """The dead loads of several loads, part by part; nothing of a single load."""
+    if isinstance(load, Load):
+        return ()
+    parts = np.array([one.on(design) for one in load.flat], np.float64).reshape(-1, 4)
+    return tuple(part.reshape(load.shape) for part in parts.T)
 
 
 def _chunks(*arrays: NDArray[Any]) -> Iterator[tuple[slice, tuple[NDArray[Any], ...]]]:
@@ -230,65 +292,110 @@ def _chunks(*arrays: NDArray[Any]) -> Iterator[tuple[slice, tuple[NDArray[Any], 
         start = end
 
 
-def _solve_chunk(chunk: EquilibriumBatch) -> None:
+def _facing_slips(
+    design: JointDesign, load: Any, tension_l: Any, tension_s: Any, dead: Sequence[Any]
+) -> Slip:
+    """The slip functions of taut pairs, each towards the side of the stronger cable."""
+    of_load: Any = DeadLoad(*dead) if dead else load.on(design)
+    size = np.hypot(of_load.force_x, of_load.force_z)
+    excess: Any = tension_l + tension_s - size
+    # Few pairs are so near the load that they need the exact sum.
+    for index in np.flatnonzero(np.abs(excess) <= 0.01 * size):
+        its_load, its_size = (load[index], size[index]) if dead else (load, size)
+        excess[index] = tension_excess(
+            *(design, its_load, float(its_size)), float(tension_l[index]), float(tension_s[index])
+        )
+    side = np.where(tension_l > tension_s, -1.0, 1.0)
+    joint = LoadedJoint.of(design, of_load)
+    return Slip(joint, excess, tension_l, tension_s, side, ARRAYS)
+
+
+class _Rows:
+    """The slip functions of many pairs as an `ArrayFunction`."""
+
+    def __init__(self, slip: Slip) -> None:
+        self.slip = slip
+
+    def of(self, rows: Any) -> Slip:
+        """Return the slip functions of some of the pairs."""
+        return self.slip if isinstance(rows, slice) else self.slip.part(rows)
+
+    def probe(self, rows: Any, places: Floats | float) -> Floats:
+        slip = self.of(rows)
+        *known, state = slip.probe(places)
+        lines = np.empty((len(known) + len(state), len(slip.total)))
+        for line, values in zip(lines, (*known, *state), strict=True):
+            line[:] = values
+        return lines
+
+    def slope_bounds(self, rows: Any, one: Floats, other: Floats) -> tuple[Floats, Floats]:
+        return self.of(rows).slope_bounds(*((*ends[:8], tuple(ends[8:])) for ends in (one, other)))
+
+
+def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
     """Fill in the results of one chunk."""
     design, tension_l, tension_s = chunk.design, chunk.tension_l, chunk.tension_s
     weak: Any = np.minimum(tension_l, tension_s)
-    strong: Any = np.maximum(tension_l, tension_s)
-    taken = (weak >= 0.0) & (strong <= MAX_TENSION)
+    taken = (weak >= 0.0) & (np.maximum(tension_l, tension_s) <= MAX_TENSION)
     chunk.regime[taken & (weak == 0.0)] = REGIME_CODES[Regime.SLACK]
     (taut,) = np.nonzero(taken & (weak > 0.0))
-    weak, strong = weak[taut], strong[taut]
-    equation = ArraySlipEquation(design, weak, strong)
-    light: Any = equation.excess > 0.0
+    load = chunk.load[taut] if dead else chunk.load  # type: ignore[index]
+    rows = _Rows(
+        _facing_slips(
+            design, load, tension_l[taut], tension_s[taut], [part[taut] for part in dead]
+        )
+    )
+    light = rows.slip.excess > 0.0
     if not light.all():
-        taut, equation = taut[light], equation.of(light)
+        if design.law.carries_more_than_cables:
+            for index in taut[~light]:
+                _solve_one(chunk, index)
+        taut, rows = taut[light], _Rows(rows.slip.part(light))
     stop = design.max_bend_angle
-    brackets = equation.brackets(stop)
-    unresolved = brackets.unresolved
+    found = array_brackets(rows, len(taut), 0.0, stop)
+    counts = np.where(rows.slip.is_determined, found.root_count, 0)
+    driven = (counts == 0) & (found.at_low > 0.0)
+    chunk.regime[taut] = REGIME_CODES[Regime.HELD]
+    chunk.root_count[taut] = counts
 
-    driven = (brackets.root_count == 0) & brackets.slips_at_zero
-    regimes = np.where(
-        driven, REGIME_CODES[Regime.DRIVEN_TO_STOP], REGIME_CODES[Regime.HELD]
-    ).astype(np.int8)
-    (rooted,) = np.nonzero(brackets.root_count)
-    regimes[rooted] = REGIME_CODES[Regime.EQUILIBRIUM]
-    chunk.regime[taut] = regimes
-    chunk.root_count[taut] = brackets.root_count
+    (at_stop,) = np.nonzero(driven)
+    chunk.regime[taut[at_stop]] = REGIME_CODES[Regime.DRIVEN_TO_STOP]
+    _fill(chunk, taut[at_stop], rows.slip.part(at_stop), stop)
+    chunk.stable[taut[at_stop]] = True
 
-    at = taut[driven]
-    part = equation.of(np.flatnonzero(driven))
-    _fill(chunk, at, part, part.points_at(equation.geometry.attitude(stop)))
-    chunk.stable[at] = True
+    (rooted,) = np.nonzero(counts)
+    chunk.regime[taut[rooted]] = REGIME_CODES[Regime.EQUILIBRIUM]
+    slip = rows.slip.part(rooted)
+    roots = array_refine(_Rows(slip), found.low[:, rooted], found.high[:, rooted])
+    point = _fill(chunk, taut[rooted], slip, roots.places)
+    chunk.stable[taut[rooted]] = point.slope < 0.0
+    chunk.iterations[taut[rooted]] = roots.steps
 
-    at = taut[rooted]
-    part = equation.of(rooted)
-    roots = part.roots(brackets.low[rooted], brackets.high[rooted])
-    points = part.points(roots.bend_angle)
-    _fill(chunk, at, part, points)
-    of_moment, of_force = part.slopes(points)
-    chunk.stable[at] = of_moment < of_force
-    chunk.iterations[at] = roots.steps
+    unresolved = found.unresolved
     unresolved[rooted] |= roots.unresolved
-
     for index in taut[unresolved]:
         _solve_one(chunk, index)
 
 
 def _fill(
-    chunk: EquilibriumBatch, at: NDArray[Any], equation: ArraySlipEquation, points: Floats
-) -> None:
-    """Fill in what follows from the angles, which are towards the stronger cable."""
-    angle, moment, force, _, _ = points
-    mirrored = chunk.tension_l[at] > chunk.tension_s[at]
-    chunk.bend_angle[at] = np.where(mirrored, -angle, angle)
-    chunk.normal_force[at] = equation.total * force
-    chunk.residual[at] = equation.total * (moment - force)
+    chunk: EquilibriumBatch, at: NDArray[Any], slip: Slip, ahead: Floats | float
+) -> SlipPoint:
+    """Fill in what follows from the angles ahead, in rad; return the slip functions there."""
+    point = slip.at(ahead)
+    chunk.bend_angle[at] = slip.side * ahead
+    chunk.normal_force[at] = slip.total * slip.law.normal(point.state, point.capacity)
+    chunk.residual[at] = slip.total * point.excess / chunk.design.friction_coefficient
+    return point
 
 
 def _solve_one(chunk: EquilibriumBatch, index: int) -> None:
     """Fill in the answer of `solve`."""
-    answer = solve(chunk.design, float(chunk.tension_l[index]), float(chunk.tension_s[index]))
+    load = chunk.load if isinstance(chunk.load, Load) else chunk.load[index]
+    pair = float(chunk.tension_l[index]), float(chunk.tension_s[index])
+    try:
+        answer = solve(chunk.design, *pair, load)
+    except TensionError:
+        return
     chunk.regime[index] = REGIME_CODES[answer.regime]
     for name in _SOLVED[1:]:
         value = getattr(answer, name)
@@ -296,47 +403,19 @@ def _solve_one(chunk: EquilibriumBatch, index: int) -> None:
         array[index] = value if value is not None else False if array.dtype == bool else np.nan
 
 
-def _contact_of(
-    design: JointDesign, tension_l: Any, tension_s: Any, bend_angle: Any, normal_force: Any
-) -> Contact:
-    """`contact_at` for a chunk."""
-    geometry = design.slip_geometry
-    side = np.where(tension_l > tension_s, -1.0, 1.0)
-    sine, cosine = np.sin(bend_angle), np.cos(bend_angle)
-    # Of φ, the sine with the sign of the side.
-    sin_phi = geometry.sine * side * cosine + geometry.cosine * sine
-    cos_phi = geometry.cosine * cosine - geometry.sine * side * sine
-    return split_contact(
-        design,
-        tension_l + tension_s,
-        normal_force,
-        side * (design.friction_coefficient * normal_force),
-        phi=(sin_phi, cos_phi),
-        theta=(sine, cosine),
-    )
-
-
 def _gradients_of(
-    design: JointDesign, tension_l: Any, tension_s: Any, bend_angle: Any, regime: Any
+    design: JointDesign, slip: Slip, point: SlipPoint, at_stop: NDArray[np.bool_]
 ) -> Floats:
-    """`gradients_at_limit` for a chunk: ∂θ/∂T_l, ∂θ/∂T_s, ∂p/∂T_l, ∂p/∂T_s."""
-    equation = ArraySlipEquation(
-        design, np.minimum(tension_l, tension_s), np.maximum(tension_l, tension_s)
-    )
-    points = equation.points(np.abs(bend_angle))
-    of_moment, of_force = equation.slopes(points)
-    slope: Any = of_moment - of_force
-    slope[regime == REGIME_CODES[Regime.DRIVEN_TO_STOP]] = np.inf
-    by_total: Any = (1.0 - points[2]) / points[3]
-    by_angle: Any = of_force
-    behind, ahead = derivatives(design, by_total=by_total, by_angle=by_angle, slope=slope)
-    mirrored = tension_l > tension_s
+    """∂θ/∂T_l, ∂θ/∂T_s, ∂p/∂T_l and ∂p/∂T_s of units that are about to slip, or at their stop."""
+    lever = design.relative_lever
+    behind, ahead = angle_by_tensions(slip, point, lever)
+    angle = np.where(at_stop, 0.0, behind), np.where(at_stop, 0.0, ahead)
+    slopes = slip.law.normal_slopes(point.state, point.capacity)
+    normal = normal_by_tensions(slip, point, slopes, lever, angle=angle, at_limit=True)
     gradients = np.array(
         [
-            np.where(mirrored, -ahead[0], behind[0]),
-            np.where(mirrored, -behind[0], ahead[0]),
-            np.where(mirrored, ahead[1], behind[1]),
-            np.where(mirrored, behind[1], ahead[1]),
+            *of_sides(slip, angle, slip.side),
+            *(by / design.contact_area for by in of_sides(slip, normal)),
         ]
     )
     gradients[:, ~np.isfinite(gradients).all(axis=0)] = np.nan

@@ -9,13 +9,13 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Any
 
+from .contact import CONTACT_LAWS, ContactLaw
 from .errors import DesignError
-from .geometry import SlipGeometry
 
 
 @dataclasses.dataclass(frozen=True)
 class DesignParameter:
-    """What is known of one field of `JointDesign`: its meaning, unit and closed range."""
+    """What is known of a field of `JointDesign` that is a number: meaning, unit, closed range."""
 
     name: str
     symbol: str
@@ -59,6 +59,41 @@ class DesignParameter:
         return number
 
 
+@dataclasses.dataclass(frozen=True)
+class DesignChoice:
+    """What is known of a field of `JointDesign` that is a word: its meaning and the choices."""
+
+    name: str
+    description: str
+    choices: tuple[str, ...]
+    symbol: str = ''
+    unit: str = ''
+
+    @property
+    def default(self) -> str:
+        """The first of the choices."""
+        return self.choices[0]
+
+    @property
+    def allowed(self) -> str:
+        """The choices as a person reads them."""
+        return ', '.join(self.choices)
+
+    def check(self, value: object) -> str:
+        """Return `value` if it is one of the choices.
+
+        Raises
+        ------
+        DesignError
+            If it is not.
+        """
+        if value not in self.choices:
+            raise DesignError(
+                f'{self.name} is {value!r}, allowed is one of {self.allowed}', key=self.name
+            )
+        return str(value)
+
+
 def _parameter(
     symbol: str, unit: str, minimum: float, maximum: float, description: str, **default: float
 ) -> Any:
@@ -79,7 +114,7 @@ def _parameter(
 class JointDesign:
     """One ball-joint unit driven by two cables; SI units, angles in radians.
 
-    Fields and their ranges are listed by `design_parameters`. The contact angles are polar angles
+    Fields and what they may be are listed by `design_fields`. The contact angles are polar angles
     from the unit's vertical axis, at zero bend.
 
     Raises
@@ -109,8 +144,19 @@ class JointDesign:
         'w', 'm', 1e-6, 10.0, 'depth of the contact zone across the plane of bending', default=1.0
     )
 
+    contact_law: str = dataclasses.field(
+        default=next(iter(CONTACT_LAWS)),
+        metadata={
+            'description': 'how much friction in the contact can hold',
+            'choices': tuple(CONTACT_LAWS),
+        },
+    )
+    stiffness: float = _parameter(
+        'k', 'N·m/rad', 0.0, 100.0, 'of a backbone or sheath that bends back', default=0.0
+    )
+
     def __post_init__(self) -> None:
-        for parameter in design_parameters():
+        for parameter in design_fields():
             value = parameter.check(getattr(self, parameter.name))
             object.__setattr__(self, parameter.name, value)
         span = self.contact_end_angle - self.contact_start_angle
@@ -121,6 +167,13 @@ class JointDesign:
                 f'{_SMALLEST_CONTACT_SPAN:g} rad',
                 key='contact_end_angle',
             )
+        try:
+            law = CONTACT_LAWS[self.contact_law](
+                self.friction_coefficient, self.contact_start_angle, self.contact_end_angle
+            )
+        except ValueError as error:
+            raise DesignError(str(error), key='contact_end_angle') from None
+        object.__setattr__(self, '_law', law)
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, object]) -> JointDesign:
@@ -131,7 +184,7 @@ class JointDesign:
         DesignError
             As the constructor does, and for unknown or missing names.
         """
-        known = {parameter.name: parameter for parameter in design_parameters()}
+        known = {field.name: field for field in design_fields()}
         for key, value in values.items():
             if key not in known:
                 raise DesignError(
@@ -154,6 +207,16 @@ class JointDesign:
         return self.mass * self.gravity
 
     @cached_property
+    def cable_lever(self) -> float:
+        """Lever r + δ of the cables about the centre of the ball, in m."""
+        return self.ball_radius + self.cable_offset
+
+    @cached_property
+    def relative_lever(self) -> float:
+        """That lever in radii of the ball, (r + δ) / r."""
+        return self.cable_lever / self.ball_radius
+
+    @cached_property
     def contact_centre_angle(self) -> float:
         """β = (θ1 + θ2) / 2, in rad: the direction of the contact force at zero bend."""
         return 0.5 * (self.contact_start_angle + self.contact_end_angle)
@@ -166,23 +229,31 @@ class JointDesign:
 
     @cached_property
     def contact_area(self) -> float:
-        """C w, in m²: contact force over mean pressure."""
-        return self.contact_length * self.contact_width
+        """N / p in m²: contact force over mean pressure, C w but for ``elastic_seat``."""
+        return self.law.contact_area(self.ball_radius, self.contact_width)
 
-    @cached_property
-    def slip_geometry(self) -> SlipGeometry:
-        """What the slip equation takes from the design alone."""
-        return SlipGeometry(self)
+    @property
+    def law(self) -> ContactLaw:
+        """The contact law, with what it takes from the design."""
+        return self._law  # type: ignore[attr-defined, no-any-return]
 
 
 # Below this the contact length C, and with it every pressure, loses its digits.
 _SMALLEST_CONTACT_SPAN = 1e-6
 
-_PARAMETERS = tuple(
-    DesignParameter(name=field.name, **field.metadata) for field in dataclasses.fields(JointDesign)
+_FIELDS: tuple[DesignParameter | DesignChoice, ...] = tuple(
+    (DesignChoice if 'choices' in field.metadata else DesignParameter)(
+        name=field.name, **field.metadata
+    )
+    for field in dataclasses.fields(JointDesign)
 )
 
 
+def design_fields() -> tuple[DesignParameter | DesignChoice, ...]:
+    """Meaning, unit and allowed values of every field of `JointDesign`, in its order."""
+    return _FIELDS
+
+
 def design_parameters() -> tuple[DesignParameter, ...]:
-    """Meaning, unit and range of every field of `JointDesign`, in its order."""
-    return _PARAMETERS
+    """Those of `design_fields` that are numbers."""
+    return tuple(field for field in _FIELDS if isinstance(field, DesignParameter))

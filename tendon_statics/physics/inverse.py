@@ -4,25 +4,18 @@ from __future__ import annotations
 
 import math
 import numbers
-from typing import NamedTuple
 
 from .admissible import check_bend_angle
 from .design import JointDesign
-from .equations import normal_force_ratios
-from .equilibrium import Regime
 from .errors import TensionError, UnreachableError
-from .roots import NEGLIGIBLE_WEIGHT
+from .load import UPRIGHT, Load
+from .slip import NEGLIGIBLE_LOAD
 from .solver import solve
+from .state import Regime
+from .tensions import Tensions, taut_slip
 
 ROUND_TRIP_TOLERANCE = 1e-9
 """How far, in rad, `solve` may end from the angle that was asked for."""
-
-
-class Tensions(NamedTuple):
-    """A pair of cable tensions in N."""
-
-    tension_l: float
-    tension_s: float
 
 
 def tensions_for(
@@ -31,10 +24,11 @@ def tensions_for(
     *,
     pressure: float | None = None,
     total_tension: float | None = None,
+    load: Load = UPRIGHT,
 ) -> Tensions:
     """Return the tensions at which the unit is about to slip at a given angle.
 
-    Eqs. (1) to (3) solved for the tensions, in closed form. `solve` of the result gives the
+    M = K solved for the tensions, in closed form. `solve` of the result gives the
     angle back, to 1e-9 rad; at 0 and at a stop it is aimed at 5e-10 rad inside the range.
 
     Parameters
@@ -45,6 +39,8 @@ def tensions_for(
         Mean joint pressure p in Pa.
     total_tension : float, optional
         T_l + T_s in N. Just one of the two is given.
+    load : Load
+        What acts beside the cables.
 
     Raises
     ------
@@ -62,28 +58,27 @@ def tensions_for(
     # Just inside the range, so that rounding does not put the root beyond its end.
     inset = 0.5 * ROUND_TRIP_TOLERANCE
     angle = min(max(abs(bend_angle), inset), design.max_bend_angle - inset)
-    friction, weight, r = design.friction_coefficient, design.weight, design.ball_radius
+    side = -1.0 if bend_angle < 0.0 else 1.0
     pressure = _checked_number('pressure', pressure)
-    total_tension = _checked_number('total_tension', total_tension)
+    total = _checked_number('total_tension', total_tension)
     if pressure is not None:
         if not 0.0 < pressure < math.inf:
             raise UnreachableError(f'pressure is {pressure!r} Pa, which must be above 0 Pa')
+        axial, across = load.on(design).at(side * angle)
         normal_force = pressure * design.contact_area
-        limit = friction * normal_force
-        phi = design.contact_centre_angle + angle
-        total = normal_force + math.hypot(limit * math.cos(phi), limit * math.sin(phi) - weight)
-    else:
-        assert total_tension is not None
-        total = total_tension
-        if not weight < total < math.inf:
-            raise UnreachableError(
-                f'total_tension is {total_tension!r} N, '
-                f"which must exceed the unit's weight of {weight:.6g} N"
-            )
-        _, force_ratio, _ = normal_force_ratios(design, 0.5 * total, 0.5 * total)(angle)
-        normal_force = total * force_ratio
-    moment = friction * r * normal_force - weight * design.com_distance * math.sin(angle)
-    difference = moment / (r + design.cable_offset)
+        total = design.law.total_tension(axial, side * across, normal_force)
+    assert total is not None
+    if not 0.0 < total < math.inf:
+        what = 'total_tension' if pressure is None else 'the total tension for that'
+        raise UnreachableError(f'{what} is {total!r} N, which no pair of cables has')
+    try:
+        slip = taut_slip(design, Tensions(0.5 * total, 0.5 * total), load)
+    except TensionError as error:
+        raise UnreachableError(str(error)) from None
+    if side < 0.0:
+        slip = slip.mirrored()
+    # With equal tensions M is all but that of the cables, which make up for what K has beyond it.
+    difference = -slip.value(angle) * total / design.relative_lever
     weak, strong = 0.5 * (total - difference), 0.5 * (total + difference)
     tensions = Tensions(strong, weak) if bend_angle < 0.0 else Tensions(weak, strong)
     if min(tensions) <= 0.0:
@@ -92,7 +87,7 @@ def tensions_for(
             f'cable {cable} would have to push: it would need {min(tensions):.6g} N at '
             f'{bend_angle:.6g} rad'
         )
-    _check_round_trip(design, tensions, bend_angle)
+    _check_round_trip(design, tensions, bend_angle, load)
     return tensions
 
 
@@ -107,17 +102,21 @@ def _checked_number(name: str, value: float | None) -> float | None:
         return math.inf
 
 
-def _check_round_trip(design: JointDesign, tensions: Tensions, bend_angle: float) -> None:
+def _check_round_trip(
+    design: JointDesign, tensions: Tensions, bend_angle: float, load: Load
+) -> None:
     """Refuse tensions that `solve` takes for something else."""
     asked = (
         f'the unit is about to slip at {bend_angle:.6g} rad with {tensions.tension_l:.6g} N and '
         f'{tensions.tension_s:.6g} N, but solve would not say so'
     )
     try:
-        answer = solve(design, *tensions)
+        answer = solve(design, *tensions, load)
     except TensionError as error:
         raise UnreachableError(str(error)) from None
-    if design.weight < NEGLIGIBLE_WEIGHT * sum(tensions):
+    if load.on(design).size + design.stiffness / design.ball_radius < NEGLIGIBLE_LOAD * sum(
+        tensions
+    ):
         raise UnreachableError(
             f"the unit's weight of {design.weight:.6g} N is next to nothing beside "
             f'{sum(tensions):.6g} N of tension, so that no angle is determined'

@@ -1,178 +1,171 @@
-"""All angles at which the slip equation changes sign, shown to be all."""
+"""All roots of a function of which bounds of the slope are known; no physics.
+
+An interval over which the slope keeps its sign holds one root or none, which the signs at its ends
+tell. One over which the function, with such a slope, cannot come down to zero holds none. Any
+other is halved.
+"""
 
 from __future__ import annotations
 
 import math
-from itertools import pairwise
+from typing import Any, Protocol
 
-from .equations import NormalForces, Point
-
-BEND_ANGLE_TOLERANCE = 1e-10
-"""Width in rad of the bracket at which the bisection ends; the paper's."""
-
-NEGLIGIBLE_WEIGHT = 1e-9
-"""Share of the tensions below which the weight moves g too little to determine an angle"""
+ANGLE_TOLERANCE = 1e-10
+"""Width in rad of the bracket at which the search for a root ends; the paper's"""
 
 FLAT_WIDTH = 1e-8
-"""Width in rad of an interval in which the rounding of g hides its slope, if it got this narrow"""
+"""Width of an interval in which the rounding of the function hides its slope, if it got this
+narrow"""
 
-MOST_CUTS = 2000
-"""Intervals that are halved before the rest is taken as too flat to resolve; a few suffice for
-any unit but one made up to be flat"""
+MOST_INTERVALS = 4000
+"""Intervals that are looked at before the rest is taken as too flat to resolve; a few suffice for
+any function but one made up to be flat"""
+
+HALVING_STEPS = frozenset((*range(5, 20, 2), *range(20, 100)))
+"""Steps after which the bracket is halved, whatever the function may promise; four or five steps
+are enough as a rule"""
+
+OVERSHOOT = 0.45 * ANGLE_TOLERANCE
+"""How far beyond the root the last step is aimed, so that rounding does not put it before"""
+
+LEAST = 5e-324
+"""Added to what may be zero, so that what is divided by it is infinite: no other number changes"""
+
+SAME = 1e-15
+"""Distance in rad within which a place is the root"""
 
 
-class SlipEquation(NormalForces):
-    """g(θ) = N_m(θ) − N_f(θ) = 0 for one design and one pair of tensions.
+Probe = tuple[Any, ...]
+"""A function at one place: place, value, slope, and what else it wants to know of it again"""
 
-    N_f and N_f / R both grow with sin φ: their derivatives by it are μ W N_f / R and
-    μ W N_f (R + B) / R³, and neither is negative. So between two quarter turns of φ, values at
-    the ends of an interval bound g and its slope inside, and an interval can be shown to hold
-    no root, or one at the most.
+
+class BoundedFunction(Protocol):
+    """A function of one variable."""
+
+    def probe(self, place: float) -> Probe:
+        """Return the function at a place."""
+
+    def slope_bounds(self, one: Probe, other: Probe) -> tuple[float, float]:
+        """Return bounds of the slope between two probes; NaN or infinite where there are none."""
+
+
+Bracket = tuple[Probe, Probe]
+"""Two probes with one root between them, over which the function changes sign"""
+
+
+def brackets(function: BoundedFunction, low: Probe, high: Probe) -> list[Bracket]:
+    """Return ascending, disjoint brackets that hold one root each, and all roots together.
+
+    A root at `low` itself comes as a bracket of no width. Where two roots merge, within about
+    1e-7 rad, rounding decides whether they are seen as two or as none.
     """
-
-    __slots__ = ()
-
-    def residual(self, bend_angle: float) -> float:
-        """Return g in N at an angle in rad."""
-        return self.residual_at(self.point(bend_angle))
-
-    def residual_at(self, point: Point) -> float:
-        """Return g in N."""
-        return self.total * (point[1] - point[2])
-
-    def slope(self, bend_angle: float) -> float:
-        """∂g/∂θ in N/rad; not finite at the kink that N_f has where R = 0."""
-        of_moment, of_force = self.slopes_at(self.point(bend_angle))
-        return of_moment - of_force
-
-    def slopes_at(self, point: Point) -> tuple[float, float]:
-        """∂N_m/∂θ = W l cos θ / (μ r) and ∂N_f/∂θ = μ W cos φ N_f / R in N/rad.
-
-        The latter is not finite where R = 0.
-        """
-        angle, _, force, root, direction = point
-        cosine = math.cos(angle)
-        by_sine = self.friction_weight * force / root if root > 0.0 else math.inf
-        return self.geometry.weight_gain * cosine, self.total * by_sine * cosine * direction
-
-    def brackets(self, low: float, high: float) -> list[tuple[float, float]]:
-        """Ascending, disjoint intervals in [low, high] that hold one root each and all together.
-
-        A root at `low` itself comes as ``(low, low)``. Where two roots merge, within about
-        1e-7 rad, rounding decides whether they are seen as two or as none.
-
-        Parameters
-        ----------
-        low, high : float
-            Angles in rad, within ±π/2.
-        """
-        if self.geometry.weight_influence < NEGLIGIBLE_WEIGHT * self.total:
-            return []
-        ends = [self.point_at(knot) for knot in self.geometry.knots(low, high)]
-        found = [(low, low)] if ends[0][1] == ends[0][2] else []
-        pending = list(pairwise(ends))
-        unresolved: list[_Interval] = []
-        cuts = 0
-        # Level by level, so that at the limit what is left is of one width.
-        while pending:
-            level, pending = pending, []
-            for left, right in level:
-                if not _may_vanish(left, right):
-                    continue
-                if right[0] - left[0] < FLAT_WIDTH or cuts >= MOST_CUTS:
-                    unresolved.append((left, right))
-                elif self._is_monotonic(left, right):
-                    if _changes_sign(left, right):
-                        found.append((left[0], right[0]))
-                else:
-                    cut = self.point(0.5 * (left[0] + right[0]))
-                    pending += [(left, cut), (cut, right)]
-                    cuts += 1
-        if unresolved:
-            for cluster in _clusters(unresolved):
-                found += _brackets_in(cluster)
-        found.sort()
-        return found
-
-    def bisect(self, low: float, high: float) -> tuple[float, int]:
-        """Halve a bracket down to `BEND_ANGLE_TOLERANCE`; return the root and the halvings.
-
-        What is halved is tan(θ/2), in which a quartic tells the sign of g. The last bracket is
-        then tried with g itself; should the quartic's rounding have misled, g is bisected. The
-        root is where the chord over the last bracket is zero, which makes it as exact as g.
-        """
-        last_low, last_high, iterations = self._bisect_quartic(low, high)
-        at_low, at_high = self._ratio(last_low), self._ratio(last_high)
-        if at_low * at_high > 0.0:
-            last_low, last_high, iterations = self._bisect_residual(low, high)
-            at_low, at_high = self._ratio(last_low), self._ratio(last_high)
-        if at_low == at_high:
-            return last_high, iterations
-        root = last_high - at_high * (last_high - last_low) / (at_high - at_low)
-        return min(max(root, last_low), last_high), iterations
-
-    def _ratio(self, bend_angle: float) -> float:
-        """Return g / T at an angle in rad."""
-        _, moment, force, _, _ = self.point_at(self.geometry.attitude(bend_angle))
-        return moment - force
-
-    def _bisect_quartic(self, low: float, high: float) -> tuple[float, float, int]:
-        """Return the last bracket and the halvings; the innermost loop, with no call in it."""
-        c0, c1, c2, c3, c4 = self.quartic()
-        t_low, t_high = math.tan(0.5 * low), math.tan(0.5 * high)
-        if (((c4 * t_low + c3) * t_low + c2) * t_low + c1) * t_low + c0 < 0.0:
-            c0, c1, c2, c3, c4 = -c0, -c1, -c2, -c3, -c4
-        # dθ/dt is 2 at the most. What frexp returns is the logarithm to base 2, rounded up.
-        _, iterations = math.frexp(2.0 * (t_high - t_low) / BEND_ANGLE_TOLERANCE)
-        iterations = max(iterations, 0)
-        for _ in range(iterations):
-            t = 0.5 * (t_low + t_high)
-            if (((c4 * t + c3) * t + c2) * t + c1) * t + c0 > 0.0:
-                t_low = t
+    found = [(low, low)] if low[1] == 0.0 else []
+    pending = [(low, high)]
+    unresolved: list[Bracket] = []
+    # It grows while it is gone through, level by level, so that at the limit what is left is of
+    # one width.
+    for interval in pending:
+        left, right = interval
+        least, greatest = function.slope_bounds(left, right)
+        if least > 0.0 or greatest < 0.0:
+            if _changes_sign(left[1], right[1]):
+                found.append(interval)
+        elif _may_vanish(left, right, least, greatest):
+            if right[0] - left[0] < FLAT_WIDTH or len(pending) > MOST_INTERVALS:
+                unresolved.append(interval)
             else:
-                t_high = t
-        # An end that has not moved stays as it was, to the last bit.
-        return max(low, 2.0 * math.atan(t_low)), min(high, 2.0 * math.atan(t_high)), iterations
-
-    def _bisect_residual(self, low: float, high: float) -> tuple[float, float, int]:
-        # The sign at `low`; at `high` g may be zero.
-        rising = self._ratio(low) < 0.0
-        iterations = 0
-        while high - low > BEND_ANGLE_TOLERANCE:
-            middle = 0.5 * (low + high)
-            at_middle = self._ratio(middle)
-            if (at_middle < 0.0) if rising else (at_middle > 0.0):
-                low = middle
-            else:
-                high = middle
-            iterations += 1
-        return low, high, iterations
-
-    def _is_monotonic(self, left: Point, right: Point) -> bool:
-        """Whether the slope is shown to keep one sign over an interval.
-
-        The slope's sign is that of (∂g/∂θ) / cos θ, in which cos φ / cos θ falls with θ.
-        """
-        _, _, left_force, left_root, left_direction = left
-        _, _, right_force, right_root, right_direction = right
-        if left_root == 0.0 or right_root == 0.0:
-            return False
-        at_left = self.friction_weight * left_force / left_root
-        at_right = self.friction_weight * right_force / right_root
-        flat, steep = (at_left, at_right) if at_left < at_right else (at_right, at_left)
-        # cos φ / cos θ falls with θ, so the largest product is with the one at the left.
-        most = left_direction * (steep if left_direction > 0.0 else flat)
-        least = right_direction * (flat if right_direction > 0.0 else steep)
-        return most < self.gain or least > self.gain
+                middle = function.probe(0.5 * (left[0] + right[0]))
+                pending += (left, middle), (middle, right)
+    if unresolved:
+        for cluster in _clusters(unresolved):
+            found += _brackets_in(cluster)
+    if len(found) > 1:
+        found.sort(key=_place)
+    return found
 
 
-_Interval = tuple[Point, Point]
+def refine(function: BoundedFunction, bracket: Bracket) -> tuple[Probe, int]:
+    """Narrow a bracket to `ANGLE_TOLERANCE`; return the root and the steps taken.
+
+    Steps go to where the cubic through both ends, with their slopes, is zero; where that does not
+    help the bracket is halved. The last step is aimed a little beyond the root, so that the
+    bracket closes from both ends. The root is where the chord over the last bracket is zero, which
+    makes it as exact as the function; it mostly is the last place but one.
+    """
+    low, high = bracket
+    rising = low[1] < 0.0 if low[1] else high[1] > 0.0
+    steps = 0
+    ahead = cubic_zero(low, high)
+    while high[0] - low[0] > ANGLE_TOLERANCE:
+        if not low[0] < ahead < high[0]:
+            ahead = 0.5 * (low[0] + high[0])
+        probe = function.probe(ahead)
+        value, slope = probe[1], probe[2]
+        steps += 1
+        if (value < 0.0) is rising:
+            low, beyond = probe, OVERSHOOT
+        else:
+            high, beyond = probe, -OVERSHOOT
+        if steps in HALVING_STEPS:
+            ahead = math.nan
+        elif slope and -OVERSHOOT < (step := value / slope) < OVERSHOOT:
+            ahead += beyond - step
+        else:
+            ahead = cubic_zero(low, high)
+    root = min(max(_chord_zero(low, high), low[0]), high[0])
+    for end in (low, high):
+        if abs(end[0] - root) <= SAME:
+            return end, steps
+    return function.probe(root), steps
 
 
-def _clusters(intervals: list[_Interval]) -> list[list[Point]]:
-    """Join intervals that lie close together; return the points of each run, ascending."""
-    clusters: list[list[Point]] = []
-    for left, right in sorted(intervals):
+def cubic_zero(low: Any, high: Any) -> Any:
+    """Where the place, as a cubic in the value through two probes and their slopes, is at zero.
+
+    NaN, or any place, where the function is not monotonic between them; floats, or arrays.
+    """
+    place, value, slope = low[0], low[1], low[2]
+    other_place, other_value, other_slope = high[0], high[1], high[2]
+    rise, width = other_value - value, other_place - place
+    share = -value / (rise + LEAST)
+    start, end = rise / (slope + LEAST), rise / (other_slope + LEAST)
+    bend = start + end - 2.0 * width
+    return place + share * (start + share * (width - start - bend + share * bend))
+
+
+def _chord_zero(low: Probe, high: Probe) -> float:
+    """Where the chord between two points is zero."""
+    if low[1] == high[1]:
+        return high[0]  # type: ignore[no-any-return]
+    return high[0] - high[1] * (high[0] - low[0]) / (high[1] - low[1])  # type: ignore[no-any-return]
+
+
+def _place(bracket: Bracket) -> tuple[float, float]:
+    low, high = bracket
+    return low[0], high[0]
+
+
+def _changes_sign(before: float, after: float) -> bool:
+    """Whether the function crosses zero after the first end, up to and with the second."""
+    return before < 0.0 <= after or before > 0.0 >= after
+
+
+def _may_vanish(left: Probe, right: Probe, least: float, greatest: float) -> bool:
+    """Whether a function with slopes within these bounds, of both signs, can have a zero."""
+    at_left, at_right, width = left[1], right[1], right[0] - left[0]
+    if at_left < 0.0:
+        at_left, at_right, least, greatest = -at_left, -at_right, -greatest, -least
+    if not at_left > 0.0 < at_right:
+        return True
+    # It comes down no further than to where steepest descent and ascent meet.
+    lowest = at_left * greatest - at_right * least + least * greatest * width
+    return not lowest > 0.0
+
+
+def _clusters(intervals: list[Bracket]) -> list[list[Probe]]:
+    """Join intervals that lie close together; return the places of each run, ascending."""
+    clusters: list[list[Probe]] = []
+    for left, right in sorted(intervals, key=_place):
         if clusters and left[0] - clusters[-1][-1][0] <= 10.0 * FLAT_WIDTH:
             clusters[-1] += [left, right]
         else:
@@ -180,31 +173,16 @@ def _clusters(intervals: list[_Interval]) -> list[list[Point]]:
     return clusters
 
 
-def _brackets_in(cluster: list[Point]) -> list[tuple[float, float]]:
-    """Brackets where g is too flat to tell roots apart, and its sign may be rounding.
+def _brackets_in(cluster: list[Probe]) -> list[Bracket]:
+    """Brackets where the function is too flat to tell roots apart, and its sign may be rounding.
 
-    Opposite signs at the two ends are one root. With like signs there are two roots if g is of
+    Opposite signs at the two ends are one root. With like signs there are two roots if it is of
     the other sign anywhere between, and none if not.
     """
     first, last = cluster[0], cluster[-1]
-    if _changes_sign(first, last):
-        return [(first[0], last[0])]
-    for point in cluster[1:-1]:
-        if _changes_sign(first, point) and _changes_sign(point, last):
-            return [(first[0], point[0]), (point[0], last[0])]
+    if _changes_sign(first[1], last[1]):
+        return [(first, last)]
+    for probe in cluster[1:-1]:
+        if _changes_sign(first[1], probe[1]) and _changes_sign(probe[1], last[1]):
+            return [(first, probe), (probe, last)]
     return []
-
-
-def _changes_sign(left: Point, right: Point) -> bool:
-    """Whether g crosses zero after `left`, up to and with `right`."""
-    before, after = left[1] - left[2], right[1] - right[2]
-    return before < 0.0 <= after or before > 0.0 >= after
-
-
-def _may_vanish(left: Point, right: Point) -> bool:
-    """Whether the ranges of N_m and N_f over an interval overlap."""
-    _, left_moment, left_force, _, _ = left
-    _, right_moment, right_force, _, _ = right
-    if left_moment < left_force:
-        return right_moment >= min(left_force, right_force) or left_moment >= right_force
-    return min(left_moment, right_moment) <= max(left_force, right_force)

@@ -14,7 +14,7 @@ def needed(*modules: str, purpose: str) -> tuple[Any, ...]:
     Raises
     ------
     RecordingError
-        If one is not installed, or does not fit what is; the text says what to install.
+        If one is not installed, or does not fit the rest; the text says what to install.
     """
     try:
         return tuple(import_module(module) for module in modules)
@@ -26,5 +26,5 @@ def needed(*modules: str, purpose: str) -> tuple[Any, ...]:
         library = (error.name or modules[0]).split('.')[0]
         raise RecordingError(
             f'{purpose} need {library}: pip install {library}, '
-            "or all of them in the folder of tendon_statics: pip install '.[recordings]'"
+            "or all of them in the folder of tendon_statics: pip install '.[recordings,matlab]'"
         ) from None

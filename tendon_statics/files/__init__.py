@@ -1,0 +1,1 @@
+"""YAML, parameter, design and rig files; installed files; outputs that appear whole."""

@@ -1,0 +1,122 @@
+"""YAML as ROS reads it, with errors for people."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any, ClassVar
+
+from ..physics.errors import TendonStaticsError
+
+
+class YamlFileError(TendonStaticsError, ValueError):
+    """A file is not valid YAML."""
+
+
+def read_yaml(path: Path, *, aliases: bool = True) -> object:
+    """Read a YAML file; whole numbers become integers, all others floats.
+
+    Parameters
+    ----------
+    aliases : bool
+        Whether one part may stand for another, which ROS does not read in parameter files.
+
+    Raises
+    ------
+    YamlFileError
+        If the file cannot be read, is not valid YAML, has a key twice, or a number that readers of
+        YAML differ in; the text does not name the file.
+    """
+    import yaml  # Here, so that the physics can be used where PyYAML is not installed.
+
+    class Loader(yaml.SafeLoader):
+        """SafeLoader that reads numbers as ROS does and refuses a key given twice."""
+
+        yaml_implicit_resolvers: ClassVar = {
+            first: [(tag, pattern) for tag, pattern in resolvers if tag not in _YAML_1_1_TAGS]
+            for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
+        }
+
+        def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+            seen = set()
+            for key, _ in node.value:
+                if key.value in seen:
+                    line = key.start_mark.line + 1
+                    raise YamlFileError(f'{key.value} is given a second time in line {line}')
+                if isinstance(key, yaml.ScalarNode):
+                    seen.add(key.value)
+            return super().construct_mapping(node, deep)
+
+        def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
+            if not aliases and self.check_event(yaml.AliasEvent):
+                event = self.peek_event()
+                raise YamlFileError(
+                    f'*{event.anchor} in line {event.start_mark.line + 1} stands for another part '
+                    'of the file, which ROS does not read; write that part out'
+                )
+            return super().compose_node(parent, index)
+
+        def refuse_number(self, node: yaml.ScalarNode) -> None:
+            text = self.construct_scalar(node)
+            raise YamlFileError(
+                f'{text} in line {node.start_mark.line + 1} is another number to ROS, '
+                f'{_as_ros_reads(text)}, than to most readers; write decimal digits without a 0 '
+                'before them'
+            )
+
+        def construct_number(self, node: yaml.ScalarNode) -> float:
+            text = self.construct_scalar(node).lower()
+            number = float(text.replace('.inf', 'inf').replace('.nan', 'nan'))
+            is_integer = text.lstrip('+-').isdigit() and abs(number) < _TOO_LARGE_FOR_AN_INTEGER
+            return int(text) if is_integer else number
+
+    Loader.add_implicit_resolver(_NUMBER_TAG, _NUMBER, list('-+.0123456789'))
+    Loader.add_constructor(_NUMBER_TAG, Loader.construct_number)
+    # Before all others: the first that fits counts.
+    for first in '-+0':
+        Loader.yaml_implicit_resolvers[first] = [
+            (_AMBIGUOUS_TAG, _AMBIGUOUS),
+            *Loader.yaml_implicit_resolvers.get(first, ()),
+        ]
+    Loader.add_constructor(_AMBIGUOUS_TAG, Loader.refuse_number)
+    try:
+        text = path.read_text(encoding='utf-8')
+    except OSError as error:
+        raise YamlFileError(f'it cannot be read: {error.strerror}') from None
+    except UnicodeDecodeError:
+        raise YamlFileError('it is not a text file in UTF-8') from None
+    try:
+        return yaml.load(text, Loader)
+    except YamlFileError:
+        raise
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        place = f' in line {mark.line + 1}' if mark else ''
+        raise YamlFileError(f'it is not valid YAML{place}: {error.problem}') from None
+    except Exception as error:
+        # PyYAML lets through whatever its constructors raise at odd content.
+        raise YamlFileError(f'it is not valid YAML: {" ".join(str(error).split())}') from None
+
+
+_TOO_LARGE_FOR_AN_INTEGER = 2.0**63  # of ROS
+
+# PyYAML's numbers and times are those of YAML 1.1: 1e-3 is text, 1_0 is 10, 1:30 is 90, 010 is 8.
+_YAML_1_1_TAGS = {f'tag:yaml.org,2002:{name}' for name in ('float', 'int', 'timestamp')}
+_NUMBER_TAG = 'tag:yaml.org,2002:float'
+_NUMBER = re.compile(
+    r'^[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?$|^[-+]?\.(?:inf|Inf|INF)$'
+    r'|^\.(?:nan|NaN|NAN)$'
+)
+
+_AMBIGUOUS_TAG = 'tag:yaml.org,2002:int'
+_AMBIGUOUS = re.compile(r'^[-+]?0(?:[0-9]+|[xX][0-9a-fA-F]+)$')
+
+
+def _as_ros_reads(text: str) -> str:
+    """What C's strtoll makes of an integer, with the base told by its first digits."""
+    sign, digits = ('-' if text.startswith('-') else ''), text.lstrip('+-')
+    base = 16 if digits[1] in 'xX' else 8
+    try:
+        return f'{sign}{int(digits, base)}'
+    except ValueError:
+        return f'{sign}{float(digits):.17g}'

@@ -1,0 +1,53 @@
+"""Messages that were sent and never came, by the gaps in the numbers of their publisher."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Hashable
+
+
+class LostMessages:
+    """Counts what one topic lost on the way, and claims no loss that may be none.
+
+    Each publisher numbers its messages one by one, but a message does not say whose it is, and a
+    new publisher may be heard before it is known. So a gap in the numbers is a suspicion, which
+    is settled by reports on who publishes. It counts as a loss at the second report after it, if
+    no other publisher was known meanwhile, and if the numbers never fell, as they do where two
+    publishers take turns.
+    """
+
+    def __init__(self) -> None:
+        self.are_counted = True
+        """False once a middleware has left out a message's number"""
+        self.forget()
+
+    def forget(self) -> None:
+        """Begin anew, as with messages that were let pass."""
+        self._newest: int | None = None
+        self._suspected = 0  # since the last report
+        self._suspected_before = 0  # between the two last reports
+        self._publishers: frozenset[Hashable] = frozenset()  # at the last report
+
+    def note(self, number: int | None) -> None:
+        """Note that a message came, which its publisher gave this number, if it is known."""
+        if number is None:
+            self.are_counted = False
+            return
+        before, self._newest = self._newest, number
+        if before is None or number == before + 1:
+            return
+        if number > before:
+            self._suspected += number - before - 1
+        else:
+            self._suspected = self._suspected_before = 0
+
+    def settle(self, publishers: Collection[Hashable]) -> int:
+        """Return how many more were lost, told by what the publishers of the topic are known."""
+        known = frozenset(publishers)
+        if self._publishers - known or len(known) > 1:
+            self._newest = None  # The next number may be another publisher's.
+        if len(known | self._publishers) > 1:
+            self._suspected = self._suspected_before = 0
+        self._publishers = known
+        lost = self._suspected_before
+        self._suspected, self._suspected_before = 0, self._suspected
+        return lost

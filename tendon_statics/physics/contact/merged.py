@@ -1,0 +1,152 @@
+"""The paper's law: Eqs. (1) and (2) merged into one by squaring and adding."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from .law import (
+    LEAST,
+    ContactLaw,
+    ContactShares,
+    LoadedLaw,
+    LoadShare,
+    NormalSlopes,
+    State,
+)
+from .numbers import Numbers, scaled_bounds, wave_bounds
+
+
+class MergedLaw(ContactLaw):
+    """K = μ r N with the smaller root N of the squared and added Eqs. (1) and (2).
+
+    Friction at its limit, F = μ N, acts on the unit at the angle φ = β + ψ from the dead load,
+    β = (θ1 + θ2) / 2:
+
+        (T − N)² = (μ N)² + |P|² − 2 |P| μ N sin φ,
+        N = (T² − |P|²) / (B + R),   B = T − μ |P| sin φ.
+
+    R is the root of the discriminant. Written as B² − (1 − μ²)(T² − |P|²) it can cancel; the same
+    number as a sum of squares, R² = (|P| − μ T sin φ)² + μ² (T² − |P|²) cos² φ, cannot, and shows
+    that it is real for T > |P|.
+    """
+
+    fits = "the paper's publication"
+    carries_more_than_cables = False  # N is not real, or negative
+
+    def __init__(self, friction_coefficient: float, start_angle: float, end_angle: float) -> None:
+        super().__init__(friction_coefficient, start_angle, end_angle)
+        centre = 0.5 * (start_angle + end_angle)
+        self.sine, self.cosine = math.sin(centre), math.cos(centre)
+        excess = (friction_coefficient - 1.0) * (friction_coefficient + 1.0)
+        self.steep = 1.0 / excess if excess > 0.0 else 0.0
+
+    def under(self, load: LoadShare, tilt: tuple[Any, Any], numbers: Numbers) -> LoadedLaw:
+        return LoadedMergedLaw(self, load, tilt, numbers)
+
+    def total_tension(self, axial: float, ahead: float, normal: float) -> float:
+        limit = self.friction * normal
+        return normal + math.hypot(limit * self.cosine - ahead, limit * self.sine - axial)
+
+
+class LoadedMergedLaw(LoadedLaw):
+    """`MergedLaw` under a dead load; its state is κ, ∂κ/∂ψ, sin φ, cos φ and μ T / R."""
+
+    __slots__ = (
+        *('_across', '_along', '_excess', '_friction', '_half', '_law', '_less'),
+        *('_may_cancel', '_numbers', '_product', '_share', '_square_root'),
+    )
+
+    def __init__(
+        self, law: MergedLaw, load: LoadShare, tilt: tuple[Any, Any], numbers: Numbers
+    ) -> None:
+        self._law, self._numbers = law, numbers
+        self._share, self._excess, self._product = load
+        self._friction = law.friction
+        self._may_cancel = numbers.any(law.friction * load[0] > 0.99)
+        self._less, self._half = 1.0 - law.friction, 0.5 * law.friction
+        self._square_root = numbers.square_root
+        # sin φ and cos φ at zero bend
+        cosine, sine = tilt
+        self._along = law.sine * cosine + law.cosine * sine
+        self._across = law.cosine * cosine - law.sine * sine
+
+    def at(self, cosine: Any, sine: Any) -> State:
+        sin_phi = self._along * cosine + self._across * sine
+        cos_phi = self._across * cosine - self._along * sine
+        share, excess, product = self._share, self._excess, self._product
+        # 1 − μ sin φ from 1 − sin φ = [cos² φ + (1 − sin φ)²] / 2, which does not cancel.
+        below_one = 1.0 - sin_phi
+        spare = self._less + self._half * (cos_phi * cos_phi + below_one * below_one)
+        b = excess + share * spare
+        lift = spare - excess
+        friction = self._friction
+        slide = friction * cos_phi
+        root = self._square_root(lift * lift + product * slide * slide)
+        larger = abs(b) + root
+        normal = product / larger
+        if self._may_cancel:  # where B < 0, and the other form of the same root does not
+            normal = self._numbers.choose(b > 0.0, normal, self._law.steep * larger)
+        capacity = friction * normal
+        steepness = friction / (root + LEAST)
+        return capacity, share * capacity * cos_phi * steepness, sin_phi, cos_phi, steepness
+
+    def slope_bounds(  # noqa: ARG002
+        self, one: State, other: State, width: Any
+    ) -> tuple[Any, Any]:
+        # n / R grows with sin φ: its derivative by it is μ w n (R + B) / R³, never negative.
+        numbers, share = self._numbers, self._share
+        capacity, _, sin_phi, cos_phi, steepness = one
+        other_capacity, _, other_sin_phi, other_cos_phi, other_steepness = other
+        gain = share * capacity * steepness
+        other_gain = share * other_capacity * other_steepness
+        low, high = numbers.least(gain, other_gain), numbers.greatest(gain, other_gain)
+        turns = cos_phi * other_cos_phi < 0.0
+        if numbers.any(turns):
+            # sin φ comes to 1 or −1 in between.
+            side = numbers.choose(sin_phi + other_sin_phi < 0.0, -1.0, 1.0)
+            capacity, _, _, _, steepness = self.at(side * self._along, side * self._across)
+            gain = numbers.choose(turns, share * capacity * steepness, other_gain)
+            low, high = numbers.least(low, gain), numbers.greatest(high, gain)
+        least, most = wave_bounds(numbers, cos_phi, sin_phi, other_cos_phi, other_sin_phi, 1.0)
+        return scaled_bounds(numbers, least, most, low, high)
+
+    def by_share(self, state: State) -> Any:
+        capacity, _, sin_phi, _, steepness = state
+        return (capacity * sin_phi - self._share) * steepness
+
+    def _lifted(self, sin_phi: Any, moment: Any) -> tuple[Any, Any]:
+        """Return n and (T − N) / T that Eqs. (1) and (2) ask for with the friction F = M / r."""
+        share = self._share
+        square = moment * moment + share * share - 2.0 * share * moment * sin_phi
+        lift = self._square_root(abs(square))
+        # 1 − lift, without loss of digits where it is small.
+        return (self._product + moment * (2.0 * share * sin_phi - moment)) / (1.0 + lift), lift
+
+    def normal(self, state: State, moment: Any) -> Any:
+        return self._lifted(state[2], moment)[0]
+
+    def normal_slopes(self, state: State, moment: Any) -> NormalSlopes:
+        _, _, sin_phi, cos_phi, _ = state
+        share = self._share
+        normal, lift = self._lifted(sin_phi, moment)
+        divisor = lift + LEAST
+        return (
+            normal,
+            (moment * sin_phi - share) / divisor,
+            share * moment * cos_phi / divisor,
+            (share * sin_phi - moment) / divisor,
+        )
+
+    def contact(self, state: State, moment: Any, normal: Any) -> ContactShares:
+        """Both forces act at β from the unit's axis; Eqs. (1) and (2) have N along it.
+
+        They ask for the root taken, N < T, while F sin φ > |P|.
+        """
+        sin_phi, sine, cosine = state[2], self._law.sine, self._law.cosine
+        return (
+            (normal * cosine, normal * sine),
+            (moment * sine, -moment * cosine),
+            (normal, 0.0 * normal),
+            moment * sin_phi > self._share,
+        )

@@ -1,0 +1,116 @@
+"""How angle and pressure follow tensions, tilt and design, to first order."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from .contact.law import NormalSlopes
+from .slip import Slip, SlipPoint
+
+
+class TensionGradient(NamedTuple):
+    """Derivatives of one quantity by the two cable tensions."""
+
+    tension_l: Any
+    tension_s: Any
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return `_asdict`, spelt out, which takes a fifth of the time."""
+        by_l, by_s = self
+        return {'tension_l': by_l, 'tension_s': by_s}
+
+    def stddev(self, tension_stddev: float) -> float:
+        """Standard deviation of the quantity, to first order.
+
+        Parameters
+        ----------
+        tension_stddev : float
+            Standard deviation of each tension in N, the two independent.
+        """
+        return tension_stddev * math.hypot(self.tension_l, self.tension_s)
+
+
+def stddev_of(gradient: TensionGradient | None, tension_stddev: float) -> float | None:
+    """Return `TensionGradient.stddev` where there is a gradient, else None."""
+    return None if gradient is None else gradient.stddev(tension_stddev)
+
+
+def finite(gradient: TensionGradient) -> TensionGradient | None:
+    """Return a gradient if it is one of finite numbers, else None."""
+    by_l, by_s = gradient
+    return gradient if math.isfinite(by_l) and math.isfinite(by_s) else None
+
+
+ByCable = tuple[Any, Any]
+"""Derivatives by the tension of the cable behind the unit and of that ahead of it"""
+
+
+def slip_by_tensions(slip: Slip, point: SlipPoint, lever: float) -> ByCable:
+    """∂g/∂T in units of r, per N; floats, or arrays of one shape.
+
+    Parameters
+    ----------
+    lever : float
+        (r + δ) / r.
+    """
+    share = slip.share
+    common = share * point.by_share - point.moment
+    return (common - lever) / slip.total, (common + lever) / slip.total
+
+
+def angle_by_tensions(slip: Slip, point: SlipPoint, lever: float) -> ByCable:
+    """∂θ/∂T of the root of g in rad/N, ahead."""
+    (behind, ahead), slope = slip_by_tensions(slip, point, lever), point.slope
+    return -behind / slope, -ahead / slope
+
+
+def root_gradient(slip: Slip, point: SlipPoint, lever: float) -> TensionGradient | None:
+    """∂θ/∂T of a root of g in rad/N; None where it is infinite."""
+    if point.slope == 0.0:
+        return None
+    return finite(of_sides(slip, angle_by_tensions(slip, point, lever), slip.side))
+
+
+def normal_by_tensions(
+    slip: Slip,
+    point: SlipPoint,
+    normal: NormalSlopes,
+    lever: float,
+    *,
+    angle: ByCable,
+    at_limit: bool,
+) -> ByCable:
+    """∂N/∂T.
+
+    Parameters
+    ----------
+    lever : float
+        (r + δ) / r.
+    angle : ByCable
+        ∂θ/∂T in rad/N, ahead; zeros for a unit that stays where it is.
+    at_limit : bool
+        Whether friction is at its limit; otherwise it takes up the moment.
+    """
+    share, total, by_tilt = slip.share, slip.total, point.by_tilt
+    share_part = share * point.by_share
+    n, n_by_share, n_by_tilt, n_by_moment = normal
+    common = n - share * n_by_share
+    behind, ahead = total * angle[0], total * angle[1]
+    if at_limit:
+        of_behind, of_ahead = by_tilt * behind - share_part, by_tilt * ahead - share_part
+    else:
+        of_behind, of_ahead = -lever - point.moment, lever - point.moment
+    return (
+        common + n_by_tilt * behind + n_by_moment * of_behind,
+        common + n_by_tilt * ahead + n_by_moment * of_ahead,
+    )
+
+
+def of_sides(slip: Slip, by_cable: ByCable, sign: Any = 1.0) -> TensionGradient:
+    """Derivatives by T_l and T_s; `sign` turns what is counted ahead into what is towards s."""
+    behind, ahead = by_cable
+    towards_s, choose = slip.side > 0.0, slip.numbers.choose
+    return TensionGradient(
+        sign * choose(towards_s, behind, ahead), sign * choose(towards_s, ahead, behind)
+    )

@@ -1,0 +1,334 @@
+"""What the model says of a unit under one pair of tensions: the one result type."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from .design import JointDesign
+from .design_gradients import Derivatives, SlipAnswer, answer_derivatives
+from .forces import Contact, ContactForces, ForceRemainder, contact_at
+from .gradients import (
+    TensionGradient,
+    angle_by_tensions,
+    finite,
+    normal_by_tensions,
+    of_sides,
+    stddev_of,
+)
+from .load import Load
+from .slip import Probe, Slip, SlipPoint
+from .tensions import Tensions, taut_slip
+
+if TYPE_CHECKING:
+    from functools import cached_property as kept
+else:
+
+    class kept:  # noqa: N801
+        """`functools.cached_property` without the lock that it takes before Python 3.12."""
+
+        def __init__(self, function):
+            self.function, self.__doc__ = function, function.__doc__
+
+        def __set_name__(self, owner, name):
+            self.name = name
+
+        def __get__(self, instance, owner=None):
+            value = instance.__dict__[self.name] = self.function(instance)
+            return value
+
+
+class Regime(str, Enum):
+    """What a pair of tensions means for the unit; the values are used on every interface."""
+
+    EQUILIBRIUM = 'equilibrium'
+    """The unit is on the verge of slipping at one angle, which is given."""
+    HELD = 'held'
+    """Friction keeps the unit from slipping towards the stronger cable at every angle from 0 to
+    the stop: tensions alone do not determine the angle. For a tracker: where it was."""
+    SLIPPING = 'slipping'
+    """The unit has slipped and friction holds it again, at its limit; only a tracker says so."""
+    DRIVEN_TO_STOP = 'driven_to_stop'
+    """At no angle from 0 to the stop can friction keep the unit from slipping towards the stronger
+    cable: it slides to the stop. Bent the other way it may be held; `admissible_angles` tells."""
+    SLACK = 'slack'
+    """A cable carries no tension, which is outside the model."""
+
+    def __str__(self) -> str:
+        return self.value
+
+
+class _Fields(NamedTuple):
+    design: JointDesign
+    load: Load
+    regime: Regime
+    tension_l: float
+    """T_l in N, as given"""
+    tension_s: float
+    """T_s in N, as given"""
+    bend_angle: float | None = None
+    """θ in rad, positive towards cable s. Of `solve` the root nearest to 0, or the stop; of a
+    tracker where the unit is"""
+    root_count: int | None = None
+    """Of `solve`: angles between 0 and the stop, on the side of the stronger cable, at which the
+    unit is about to slip"""
+    iterations: int | None = None
+    """Of `solve`: steps of the search for the root; 0 where there was nothing to search"""
+    angle_assured: bool = True
+    """Of a tracker: False once a cable has been slack, until a stop or a reset. The angle is then
+    where the unit was before, which is where it is only if it has not moved meanwhile"""
+    slip_gradient: TensionGradient | None = None
+    """Of a tracker: ∂θ/∂T in rad/N of the slip that brought the unit here"""
+
+
+class Equilibrium(_Fields):
+    """The answer of `solve`, and of a tracker. What is not determined is None, never a number.
+
+    All that follows from the angle is worked out when it is asked for, once: forces, pressure and
+    gradients are None where there is no angle, that is while a cable is slack, and in the regime
+    ``held`` of `solve`.
+    """
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f'an Equilibrium cannot be changed; its {name} is what it is')
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), tuple(self)
+
+    @property
+    def is_tracked(self) -> bool:
+        """Whether a tracker gave it, which remembers where the unit was."""
+        return self.root_count is None
+
+    @property
+    def slip_margin(self) -> float | None:
+        """M / K at the angle: ±1 at the limit of friction, beyond that only against the stop."""
+        if self.bend_angle is None:
+            return None
+        slip, probe = self._slip_and_probe
+        return slip.margin_at(probe)
+
+    @property
+    def residual(self) -> float | None:
+        """(|M| − K) / (μ r) in N: 0 at a root, at the stop by how much M exceeds friction.
+
+        With the paper's law N_m − N_f, Eq. (4).
+        """
+        if self.bend_angle is None:
+            return None
+        slip, probe = self._slip_and_probe
+        return slip.residual_at(probe)
+
+    @property
+    def stable(self) -> bool | None:
+        """Whether the unit comes back when pushed past the angle; False: it slides on to the stop.
+
+        None where friction is not at its limit.
+        """
+        if self.regime is Regime.EQUILIBRIUM:
+            return self._slip_and_probe[1][2] < 0.0  # type: ignore[no-any-return]
+        return True if self.regime is Regime.DRIVEN_TO_STOP else None
+
+    @property
+    def normal_force(self) -> float | None:
+        """N in N; None for a tracked unit where not `branch_consistent`."""
+        if self.is_tracked or self.bend_angle is None:
+            contact = self._contact
+            return contact.normal_force if contact is not None and contact.consistent else None
+        slip, probe = self._slip_and_probe
+        return slip.total * slip.law.normal(probe[8], self._friction)  # type: ignore[no-any-return]
+
+    @property
+    def pressure(self) -> float | None:
+        """P in Pa (per metre of contact depth if `contact_width` is left at 1 m)."""
+        normal_force = self.normal_force
+        return None if normal_force is None else normal_force / self.design.contact_area
+
+    @property
+    def forces(self) -> ContactForces | None:
+        """The forces on the joint surface."""
+        contact = self._assured_contact
+        return None if contact is None else contact.forces
+
+    @property
+    def force_remainder(self) -> ForceRemainder | None:
+        """What Eqs. (1) and (2) leave over, one by one."""
+        contact = self._assured_contact
+        return None if contact is None else contact.remainder
+
+    @property
+    def branch_consistent(self) -> bool | None:
+        """Whether Eqs. (1) and (2) ask for the contact force taken.
+
+        With the paper's law they do while F sin φ > |P|, so that N < T.
+        """
+        contact = self._contact
+        return None if contact is None else contact.consistent
+
+    @property
+    def bend_angle_gradient(self) -> TensionGradient | None:
+        """∂θ/∂T in rad/N; None also where it is infinite (two roots merging).
+
+        Of a tracker, that of the slip that brought the unit here, while the angle is assured.
+        """
+        if self.is_tracked:
+            return self.slip_gradient if self.angle_assured else None
+        return self._gradients[0]
+
+    @property
+    def pressure_gradient(self) -> TensionGradient | None:
+        """∂p/∂T in Pa/N; None also where it is infinite."""
+        return None if self._assured_contact is None else self._gradients[1]
+
+    @property
+    def bend_angle_derivatives(self) -> Derivatives | None:
+        """∂θ/∂x in rad per SI unit, for the tilt of the base and each number of the design.
+
+        Of `solve`; None also where they are infinite. At the stop only the stop moves the angle.
+        """
+        found = self._derivatives()
+        return None if found is None else found[0]
+
+    @property
+    def pressure_derivatives(self) -> Derivatives | None:
+        """∂p/∂x in Pa per SI unit, likewise."""
+        found = self._derivatives()
+        return None if found is None else found[1]
+
+    def bend_angle_stddev(self, tension_stddev: float) -> float | None:
+        """Return the standard deviation of the angle in rad, to first order, None if not known.
+
+        Parameters
+        ----------
+        tension_stddev : float
+            Standard deviation of each tension in N, the two independent.
+        """
+        return stddev_of(self.bend_angle_gradient, tension_stddev)
+
+    def pressure_stddev(self, tension_stddev: float) -> float | None:
+        """Return the standard deviation of the pressure in Pa in the same way."""
+        return stddev_of(self.pressure_gradient, tension_stddev)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return all but design and load by name, ready for JSON: nested as dicts."""
+        # Its own fields are unpacked rather than asked for one by one: that saves a tenth.
+        design, _, regime, tension_l, tension_s, angle, root_count, iterations, assured, _ = self
+        contact, consistent = self._assured_contact, self.branch_consistent
+        by_tension, pressure_by_tension = self.bend_angle_gradient, self.pressure_gradient
+        return {
+            'regime': regime.value,
+            'tension_l': tension_l,
+            'tension_s': tension_s,
+            'bend_angle': angle,
+            'angle_assured': assured,
+            'slip_margin': self.slip_margin,
+            'pressure': contact and contact.normal_force / design.contact_area,
+            'normal_force': contact and contact.normal_force,
+            'root_count': root_count,
+            'iterations': iterations,
+            'stable': self.stable,
+            'residual': self.residual,
+            'forces': contact and contact.forces.as_dict(),
+            'force_remainder': contact and contact.remainder.as_dict(),
+            'branch_consistent': consistent,
+            'bend_angle_gradient': by_tension and by_tension.as_dict(),
+            'pressure_gradient': pressure_by_tension and pressure_by_tension.as_dict(),
+        }
+
+    # What it is worked out from
+
+    @classmethod
+    def of(cls, slip: Slip, probe: Probe, fields: tuple[Any, ...]) -> Equilibrium:
+        """Make one whose slip function is already there, probed at the angle.
+
+        Parameters
+        ----------
+        slip : Slip
+            Towards the side to which the moment drives the unit.
+        fields : tuple
+            All of them.
+        """
+        made = cls._make(fields)
+        made.__dict__['_slip_and_probe'] = slip, probe
+        return made
+
+    @kept
+    def _slip_and_probe(self) -> tuple[Slip, Probe]:
+        """The slip function towards the side to which the moment drives, probed at the angle."""
+        tensions = Tensions(self.tension_l, self.tension_s)
+        slip = taut_slip(self.design, tensions, self.load)
+        assert self.bend_angle is not None
+        return slip.driving(self.bend_angle)
+
+    @kept
+    def _point(self) -> SlipPoint:
+        slip, probe = self._slip_and_probe
+        return slip.point(probe)
+
+    @property
+    def _is_at_limit(self) -> bool:
+        return self.regime is Regime.EQUILIBRIUM or self.regime is Regime.DRIVEN_TO_STOP
+
+    @property
+    def _friction(self) -> float:
+        """The moment that friction takes up, in units of r T."""
+        probe = self._slip_and_probe[1]
+        return probe[8][0] if self._is_at_limit else probe[5]  # type: ignore[no-any-return]
+
+    @kept
+    def _contact(self) -> Contact | None:
+        if self.bend_angle is None:
+            return None
+        return contact_at(self._slip_and_probe[0], self._point, self._friction)
+
+    @property
+    def _assured_contact(self) -> Contact | None:
+        """The contact if the model stands behind it."""
+        contact = self._contact
+        return None if contact and self.is_tracked and not contact.consistent else contact
+
+    @kept
+    def _gradients(self) -> tuple[TensionGradient | None, TensionGradient | None]:
+        """∂θ/∂T and ∂p/∂T, None where infinite; of a unit that is held it does not move."""
+        if self.bend_angle is None:
+            return None, None
+        slip, point, lever = self._slip_and_probe[0], self._point, self.design.relative_lever
+        angle, by_tension = (0.0, 0.0), STAYS
+        if self.regime is Regime.EQUILIBRIUM:
+            if point.slope == 0.0:
+                return None, None
+            angle = angle_by_tensions(slip, point, lever)
+            by_tension = of_sides(slip, angle, slip.side)
+        behind, ahead = normal_by_tensions(
+            slip,
+            point,
+            slip.law.normal_slopes(point.state, self._friction),
+            lever,
+            angle=angle,
+            at_limit=self._is_at_limit,
+        )
+        area = self.design.contact_area
+        return finite(by_tension), finite(of_sides(slip, (behind / area, ahead / area)))
+
+    def _derivatives(self) -> tuple[Derivatives, Derivatives] | None:
+        """By tilt and design. A tracked unit has been brought here by tensions of the past."""
+        if self.is_tracked or self.bend_angle is None:
+            return None
+        rest = (self.regime, self.tension_l, self.tension_s)
+
+        def ask(design: JointDesign, load: Load, bend_angle: float) -> SlipAnswer:
+            there = Equilibrium(design, load, *rest, bend_angle, self.root_count)
+            assert there.residual is not None
+            assert there.pressure is not None
+            # Without μ: the moment that is missing, over r.
+            return SlipAnswer(there.residual * design.friction_coefficient, there.pressure)
+
+        return answer_derivatives(
+            ask,
+            *(self.design, self.load, self.bend_angle, self.tension_l + self.tension_s),
+            at_stop=self.regime is Regime.DRIVEN_TO_STOP,
+        )
+
+
+STAYS = TensionGradient(0.0, 0.0)
+"""Of an angle that does not follow the tensions"""

@@ -1,0 +1,1 @@
+"""From files to a `Recording`: tables and bags, units and clocks."""

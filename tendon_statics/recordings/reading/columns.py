@@ -1,0 +1,127 @@
+"""The columns of a table that are those of a recording."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from ..errors import RecordingError
+from ..recording import QUANTITIES
+from .table_options import TableOptions, unit_factor
+from .time_column import TimeColumn, find_time
+from .units import parse_column, split_title
+
+REQUIRED = ('tension_l', 'tension_s')
+
+READINGS = ('reading_l', 'reading_s')
+"""Columns of a replay: what was recorded, where a gain and bias made tensions in N of it"""
+
+
+class Column(NamedTuple):
+    """Where a quantity stands in a table."""
+
+    place: int
+    factor: float
+    """What one of its unit is in SI"""
+    has_unit: bool = False
+    """Whether the unit is said, and not taken to be SI"""
+
+
+class Columns(NamedTuple):
+    """Where all of a recording stands in a table."""
+
+    numbers: dict[str, Column]
+    """By quantity; without the time"""
+    time: TimeColumn | None = None
+    state: int | None = None
+    in_newtons: bool = False
+    """Whether the tensions are in N for certain, since their units are said"""
+
+
+def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> Columns:
+    """Find the columns of a recording by their titles; others are left alone.
+
+    Raises
+    ------
+    RecordingError
+        If a tension has no column, a quantity has two, or a unit is not known.
+    """
+    options = options or TableOptions()
+    found: dict[str, Column] = {}
+    for quantity, title in options.columns.items():
+        found[quantity] = _named(quantity, title, titles)
+    named = {column.place for column in found.values()}
+    by_itself: set[str] = set()
+    for place, title in enumerate(titles):
+        if place in named or split_title(title)[0] in options.columns:
+            continue
+        name, factor = parse_column(title)
+        if name not in (*QUANTITIES, 'state') or name in options.columns:
+            continue
+        if name in by_itself:
+            raise RecordingError(f'there are two columns of {name}')
+        by_itself.add(name)
+        found[name] = Column(place, factor, split_title(title)[1] is not None)
+    for name in REQUIRED:
+        if name not in found:
+            there = ', '.join(filter(None, titles)) or 'none'
+            raise RecordingError(
+                f'there is no column {name}; {", ".join(REQUIRED)} are needed, there are: {there}'
+                f' (--columns {name}=TITLE names one of them)'
+            )
+    for quantity, unit in options.units.items():
+        if quantity in found:
+            found[quantity] = _with_unit(quantity, unit, found[quantity], titles)
+    time = _time(found.pop('time', None), titles, options)
+    state = found.pop('state', None)
+    in_newtons = all(found[name].has_unit for name in REQUIRED) or set(READINGS) <= set(titles)
+    return Columns(found, time, None if state is None else state.place, in_newtons)
+
+
+def _named(quantity: str, title: str, titles: Sequence[str]) -> Column:
+    """Return the column that an option names.
+
+    Raises
+    ------
+    RecordingError
+        If there is none, or more than one.
+    """
+    places = [place for place, name in enumerate(titles) if title in (name, split_title(name)[0])]
+    if len(places) != 1:
+        raise RecordingError(
+            f'there is no column {title!r} to be {quantity}; there are: {", ".join(titles)}'
+            if not places
+            else f'there are {len(places)} columns {title!r}'
+        )
+    unit = split_title(titles[places[0]])[1]
+    if unit is None or quantity == 'state':
+        return Column(places[0], 1.0)
+    return Column(places[0], unit_factor(quantity, unit), has_unit=True)
+
+
+def _with_unit(quantity: str, unit: str, column: Column, titles: Sequence[str]) -> Column:
+    """Give a column the unit that an option says.
+
+    Raises
+    ------
+    RecordingError
+        If its title has another.
+    """
+    factor = unit_factor(quantity, unit)
+    if column.has_unit and column.factor != factor:
+        raise RecordingError(
+            f'the unit of {titles[column.place]!r} stands in its title, and --units says {unit}'
+        )
+    return Column(column.place, factor, has_unit=True)
+
+
+def _time(
+    column: Column | None, titles: Sequence[str], options: TableOptions
+) -> TimeColumn | None:
+    unit = options.units.get('time')
+    if column is None:
+        found = find_time(titles)
+        return found if found is None or unit is None else found._replace(unit=unit)
+    if column.has_unit:
+        unit = unit or split_title(titles[column.place])[1]
+    return TimeColumn(column.place, titles[column.place], unit)

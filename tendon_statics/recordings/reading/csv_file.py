@@ -1,0 +1,168 @@
+"""Recordings in text files: CSV, and what spreadsheets and LabVIEW make of it."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import RecordingError
+from ..progress import Progress, unseen
+from ..recording import Recording
+from .columns import Column, Columns, find_columns
+from .table import table_recording
+from .table_options import TableOptions
+from .text_form import recognise
+from .text_lines import TextForm, bare
+from .time_column import is_iso, times_of, times_of_iso
+
+LINE_ENDS = (b'\n', b'\r')
+
+MISSING = {'', 'na', 'n/a', '#n/a', '<na>', 'null', 'none', '-nan', '-1.#ind', '1.#qnan'}
+"""What programs write for a missing number, besides nan"""
+
+MOST_SHOWN = 80
+"""Characters of a damaged line that are shown"""
+
+
+def load_csv(
+    path: Path, options: TableOptions | None = None, progress: Progress = unseen
+) -> Recording:
+    """Read a text file with a table whose titles name the columns, as `load_recording` does.
+
+    Empty lines and comments are left alone; an empty field is NaN. A line that is not as long as
+    the titles, is not UTF-8 or has no number where there should be one is damage. So is a last
+    line without an end whose last field is shorter than that of every line before: a number that
+    was cut still looks like one.
+    """
+    options = options or TableOptions()
+    content, notes = bare(path.read_bytes(), options)
+    form = recognise(content, options)
+    rows = _Rows(form, find_columns(form.titles, options))
+    for number, line in progress(form.rows, 'reading'):
+        rows.take(number, line)
+    return rows.recording(path.name, (*notes, *form.notes))
+
+
+class _NoNumberError(ValueError):
+    """A field that has no number where there should be one."""
+
+
+class _Rows:
+    """The rows of a table, one by one."""
+
+    def __init__(self, form: TextForm, columns: Columns) -> None:
+        self._form = form
+        self._columns = columns
+        self._values: dict[str, list[float]] = {name: [] for name in columns.numbers}
+        self._texts: list[str] = []
+        """Dates and times"""
+        self._times: list[float] = []
+        self._nanoseconds: list[float] = []
+        self._states: list[str] = []
+        self._damage: list[str] = []
+        self._shortest = 0  # last field so far, in characters
+        self._is_iso: bool | None = None
+
+    def take(self, number: int, line: bytes) -> None:
+        """Take a row, or name what is wrong with it."""
+        titles = self._form.titles
+        try:
+            fields = self._form.fields(line)
+            row = [self._number(fields, column) for column in self._columns.numbers.values()]
+            time = self._time(fields)
+            if len(fields) != len(titles):
+                raise ValueError(f'{len(fields)} fields')
+        except (ValueError, IndexError, csv.Error) as error:
+            place = f'line {number}, {_shown(line)}'
+            why = f': {error}' if isinstance(error, _NoNumberError) else ''
+            self._damage.append(
+                f'{place}, is not a row of {self._form.separator.join(titles)}{why}'
+            )
+            return
+        length = len(fields[-1])
+        if not line.endswith(LINE_ENDS) and length < self._shortest:
+            self._damage.append(
+                f'line {number}, {_shown(line)}, is shorter than all before it and has no end, '
+                'so it has been cut; if it is whole, add an end of line'
+            )
+            return
+        self._shortest = min(self._shortest or length, length)
+        for kept, value in zip(self._values.values(), row, strict=True):
+            kept.append(value)
+        if isinstance(time, str):
+            self._texts.append(time)
+        elif time is not None:
+            self._times.append(time[0])
+            self._nanoseconds.append(time[1])
+        if self._columns.state is not None:
+            self._states.append(fields[self._columns.state])
+
+    def recording(self, name: str, notes: Sequence[str]) -> Recording:
+        """Return what was read.
+
+        Raises
+        ------
+        RecordingError
+            If that is no row.
+        """
+        if not self._values['tension_l']:
+            why = f'; {self._damage[0]}' if self._damage else ''
+            raise RecordingError(f'there is no row of tensions in it{why}')
+        column, times = self._columns.time, None
+        if column is not None and self._is_iso:
+            times = times_of_iso(column, self._texts)
+        elif column is not None:
+            rest = None if column.nanoseconds is None else np.array(self._nanoseconds)
+            times = times_of(column, np.array(self._times), rest)
+        return table_recording(
+            name,
+            self._columns,
+            {quantity: np.array(values) for quantity, values in self._values.items()},
+            times,
+            None if self._columns.state is None else self._states,
+            damage=self._damage,
+            notes=notes,
+        )
+
+    def _time(self, fields: list[str]) -> str | tuple[float, float] | None:
+        """Return a row's time: a text of ISO 8601, or the number with what is to be added."""
+        column = self._columns.time
+        if column is None:
+            return None
+        text = fields[column.place]
+        if self._is_iso is None and text:
+            self._is_iso = is_iso(text)
+        if self._is_iso:
+            if text and not is_iso(text):
+                raise ValueError(text)
+            return text
+        rest = 0.0
+        if column.nanoseconds is not None:
+            rest = self._plain(fields[column.nanoseconds])
+        return self._plain(text), rest
+
+    def _number(self, fields: list[str], column: Column) -> float:
+        return column.factor * self._plain(fields[column.place])
+
+    def _plain(self, text: str) -> float:
+        if text.casefold() in MISSING:
+            return math.nan
+        number = text
+        if self._form.decimal == ',':
+            # A point is one between thousands, perhaps.
+            number = text.replace('.', '_').replace(',', '.')
+        try:
+            if '_' in number:
+                raise ValueError  # Python takes 1_5 for 15.
+            return float(number)
+        except ValueError:
+            raise _NoNumberError(f'{_shown(text.encode())} is no number') from None
+
+
+def _shown(line: bytes) -> str:
+    text = line.decode(errors='replace').rstrip('\r\n')
+    return repr(text if len(text) <= MOST_SHOWN else f'{text[:MOST_SHOWN]}…')

@@ -1,0 +1,82 @@
+"""From a file to a `Recording`, by its ending."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..errors import RecordingError, one_line
+from ..progress import Progress, unseen
+from ..recording import Recording
+from .bag_folder import BAG_ENDINGS, is_bag_file
+from .table_options import TableOptions
+from .topics import BagTopics
+
+TEXT_ENDINGS = ('.csv', '.tsv', '.lvm')
+ENDINGS = (*TEXT_ENDINGS, '.parquet', '.mat', *BAG_ENDINGS)
+
+
+def load_recording(
+    path: str | Path,
+    topics: BagTopics | None = None,
+    table: TableOptions | None = None,
+    *,
+    progress: Progress = unseen,
+) -> Recording:
+    """Read a recorded session.
+
+    A table, CSV, Parquet or MATLAB, has columns ``tension_l``, ``tension_s`` and, where there are
+    such, ``time``, ``bend_angle``, ``pressure`` and ``state``; a unit stands in brackets,
+    ``tension_l [mN]``, and without one the column is in SI. A ROS 2 bag is an ``.mcap`` or
+    ``.db3`` file, or the folder of one, compressed or not; a ``.bag`` is one of ROS 1.
+
+    Parameters
+    ----------
+    path : str or Path
+        Its ending says what it is.
+    topics : BagTopics, optional
+        Of a bag; ignored for a table.
+    table : TableOptions, optional
+        Of a table; ignored for a bag.
+    progress : callable
+        A `Progress`, to show how far the reading is.
+
+    Returns
+    -------
+    Recording
+        What could be read; what could not is named in its `damage`, what was recognised that is
+        not said in the file in its `notes`.
+
+    Raises
+    ------
+    RecordingError
+        If there is no such file, it cannot be read at all, it holds no sample, or a column, unit
+        or topic is not there or not known; the text names the file. Also if a library is missing
+        that the format needs.
+    """
+    path = Path(path)
+    try:
+        if path.is_dir() or is_bag_file(path):
+            from .bag import load_bag
+
+            return load_bag(path, topics or BagTopics(), progress)
+        return _table(path, table, progress)
+    except RecordingError as error:
+        raise RecordingError(f'{path}: {one_line(error)}') from None
+    except OSError as error:
+        raise RecordingError(f'{path}: it cannot be read: {error.strerror or error}') from None
+
+
+def _table(path: Path, options: TableOptions | None, progress: Progress) -> Recording:
+    if path.suffix == '.parquet':
+        from .parquet_file import load_parquet
+
+        return load_parquet(path, options, progress)
+    if path.suffix == '.mat':
+        from .mat_file import load_mat
+
+        return load_mat(path, options, progress)
+    if path.suffix in TEXT_ENDINGS:
+        from .csv_file import load_csv
+
+        return load_csv(path, options, progress)
+    raise RecordingError(f'a recording ends in {", ".join(ENDINGS)}, or is the folder of a bag')

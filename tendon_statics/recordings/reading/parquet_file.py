@@ -1,0 +1,104 @@
+"""Recordings in Parquet files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import RecordingError
+from ..libraries import needed
+from ..progress import Progress, unseen
+from ..recording import Floats, Recording
+from .columns import find_columns
+from .table import table_recording
+from .table_options import TableOptions
+from .time_column import (
+    TimeColumn,
+    Times,
+    times_of,
+    times_of_iso,
+    times_of_nanoseconds,
+)
+
+
+def load_parquet(
+    path: Path, options: TableOptions | None = None, progress: Progress = unseen
+) -> Recording:
+    """Read a Parquet file, as `load_recording` does; a missing value is NaN.
+
+    A row group that cannot be read is damage; without the file's end nothing can.
+    """
+    pa, parquet = needed('pyarrow', 'pyarrow.parquet', purpose='Parquet files')
+    damage, tables = [], []
+    path.open('rb').close()  # for the system's own reason, if it cannot be
+    try:
+        file = parquet.ParquetFile(path, page_checksum_verification=True)
+    except Exception as error:
+        # Damage makes the library raise what its unpacking happens to.
+        raise RecordingError(f'it cannot be read as Parquet: {error}') from None
+    with file:
+        titles = list(file.schema_arrow.names)
+        columns = find_columns(titles, options)
+        time = columns.time or _index_of_pandas(file.schema_arrow)
+        places = [column.place for column in columns.numbers.values()]
+        if time is not None:
+            places += [time.place, *([] if time.nanoseconds is None else [time.nanoseconds])]
+        if columns.state is not None:
+            places.append(columns.state)
+        first_row = 0
+        for group in progress(range(file.num_row_groups), 'reading'):
+            rows = file.metadata.row_group(group).num_rows
+            try:
+                part = file.read_row_group(group, columns=[titles[place] for place in places])
+                part.validate(full=True)  # texts are UTF-8
+                tables.append(part)
+            except Exception as error:
+                damage.append(f'rows {first_row} to {first_row + rows - 1}: {error}')
+            first_row += rows
+    table = pa.concat_tables(tables) if tables else None
+    if table is None or len(table) == 0:
+        why = f'; {damage[0]}' if damage else ''
+        raise RecordingError(f'there is no row of tensions in it{why}')
+
+    def numbers(place: int) -> Floats:
+        title = titles[place]
+        try:
+            values = table[title].cast(pa.float64()).to_numpy()
+        except pa.ArrowException:
+            raise RecordingError(f'the column {title} holds no numbers') from None
+        return np.asarray(values, dtype=np.float64)
+
+    def times(column: TimeColumn) -> Times:
+        values = table[titles[column.place]]
+        if pa.types.is_timestamp(values.type) or pa.types.is_date(values.type):
+            moments = values.cast(pa.timestamp('ns'), safe=False).to_numpy()
+            return times_of_nanoseconds(column, moments.astype('datetime64[ns]').astype(np.int64))
+        if pa.types.is_duration(values.type):
+            spans = values.cast(pa.duration('ns'), safe=False).cast(pa.int64()).cast(pa.float64())
+            return times_of(column._replace(unit='ns'), spans.to_numpy())
+        if pa.types.is_string(values.type) or pa.types.is_large_string(values.type):
+            return times_of_iso(column, [value or '' for value in values.to_pylist()])
+        rest = None if column.nanoseconds is None else numbers(column.nanoseconds)
+        return times_of(column, numbers(column.place), rest)
+
+    state = None
+    if columns.state is not None:
+        state = [str(value or '') for value in table[titles[columns.state]].to_pylist()]
+    return table_recording(
+        path.name,
+        columns,
+        {name: numbers(column.place) * column.factor for name, column in columns.numbers.items()},
+        None if time is None else times(time),
+        state,
+        damage=damage,
+    )
+
+
+def _index_of_pandas(schema: Any) -> TimeColumn | None:
+    """The index that pandas has written, if it holds moments."""
+    for place, field in enumerate(schema):
+        if field.name == '__index_level_0__' and str(field.type).startswith('timestamp'):
+            return TimeColumn(place, field.name)
+    return None

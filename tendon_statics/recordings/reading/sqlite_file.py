@@ -1,0 +1,170 @@
+"""Messages in SQLite files, down to whatever of a damaged one can be read."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sqlite3
+import tempfile
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+from typing import Any
+
+from ..errors import RecordingError
+from .bag_record import UNKNOWN_TYPE, Record
+
+WAL = '-wal'
+"""Ending of the log in which SQLite keeps what has not yet come to the file itself"""
+
+JOURNAL = '-journal'
+"""Ending of the file in which SQLite keeps what a change that is not finished has overwritten"""
+
+JOURNAL_MAGIC = b'\xd9\xd5\x05\xf9\x20\xa1\x63\xd7'
+"""What a journal begins with that is still to be undone"""
+
+WAL_HEADER, WAL_PAGE_HEADER = 32, 24
+"""Bytes at the beginning of a log, and before each page in it"""
+
+PAGE_SIZE = slice(16, 18)
+"""Where a file says how large its pages are; 1 stands for `LARGEST_PAGE`"""
+
+SMALLEST_PAGE, LARGEST_PAGE = 512, 65536
+"""Bytes"""
+
+
+def sqlite_records(path: Path, types: dict[str, str], damage: list[str]) -> Iterator[Record]:
+    """Read the messages of an SQLite file row by row, up to where it is damaged.
+
+    Parameters
+    ----------
+    types : dict
+        Gets every topic of the bag, with its type.
+    damage : list
+        Gets what cannot be read.
+
+    Raises
+    ------
+    RecordingError
+        If it is no SQLite file, or has no tables of a bag.
+    """
+    path.open('rb').close()  # for the system's own reason, if it cannot be
+    with _opened(path) as database:
+        try:
+            damage.extend(_unfinished(database, path))
+            # So that a file that is shorter than its header says is read all the same.
+            database.execute('PRAGMA writable_schema = ON')
+            topics = {
+                key: (_text(name), _text(kind) or UNKNOWN_TYPE)
+                for key, name, kind in database.execute('SELECT id, name, type FROM topics')
+            }
+            definitions = _definitions(database)
+            rows = database.execute('SELECT topic_id, timestamp, data FROM messages')
+        except (sqlite3.Error, MemoryError) as error:
+            raise RecordingError(f'it cannot be read as a bag: {error}') from None
+        types.update((name, kind) for name, kind in topics.values() if name)
+        unknown = 0
+        try:
+            for key, log_time, data in rows:
+                name, kind = topics.get(key, ('', ''))
+                if name:
+                    yield Record(name, kind, definitions.get(kind, ''), log_time, data)
+                else:
+                    unknown += 1
+        except (sqlite3.Error, MemoryError) as error:
+            damage.append(f'it is truncated or damaged ({error})')
+        if unknown:
+            damage.append(f'{unknown} messages are of topics that it does not define')
+        if not damage:
+            damage.extend(_contradictions(database))
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[sqlite3.Connection]:
+    """Open a file without changing it or leaving anything beside it."""
+    with _readable(path) as uri:
+        try:
+            database = sqlite3.connect(uri, uri=True)
+        except sqlite3.Error as error:
+            raise RecordingError(f'it cannot be read as a bag: {error}') from None
+        # Damaged text need not be UTF-8, and what should be a blob may have become a text.
+        database.text_factory = bytes
+        with closing(database):
+            yield database
+
+
+@contextmanager
+def _readable(path: Path) -> Iterator[str]:
+    """Give the URI of a file, or of a copy that is not as it is.
+
+    Into a copy SQLite may write the journals. And a copy can do without a page at the end that is
+    torn: SQLite would read what is missing of it as zeros, which would come out as tensions.
+    """
+    endings = [ending for ending in (WAL, JOURNAL) if _content(path, ending)]
+    torn = _torn_bytes(path)
+    if not endings and not torn:
+        yield f'{path.absolute().as_uri()}?mode=ro&immutable=1'
+        return
+    with tempfile.TemporaryDirectory(prefix='tendon-statics-') as folder:
+        copy = Path(folder, path.name)
+        for ending in ('', *endings):
+            shutil.copyfile(f'{path}{ending}', f'{copy}{ending}')
+        os.truncate(copy, copy.stat().st_size - torn)
+        yield copy.as_uri()
+
+
+def _torn_bytes(path: Path) -> int:
+    """Bytes of a file after its last whole page."""
+    with path.open('rb') as file:
+        page_size = int.from_bytes(file.read(PAGE_SIZE.stop)[PAGE_SIZE], 'big')
+    if page_size == 1:
+        page_size = LARGEST_PAGE
+    if page_size & (page_size - 1) or not SMALLEST_PAGE <= page_size <= LARGEST_PAGE:
+        return 0  # SQLite will say what it is.
+    return path.stat().st_size % page_size
+
+
+def _unfinished(database: sqlite3.Connection, path: Path) -> Iterator[str]:
+    """Say what of the journals SQLite leaves out: all from the first damaged page of a log on."""
+    if _content(path, JOURNAL).startswith(JOURNAL_MAGIC):
+        yield f'what was written last is left out: as its {JOURNAL} says, it was not finished'
+    log = _content(path, WAL)
+    if not log:
+        return
+    page_size, salt = int.from_bytes(log[8:12], 'big'), log[16:24]
+    pages = range(WAL_HEADER, len(log), WAL_PAGE_HEADER + page_size)
+    written = sum(log[start + 8 : start + 16] == salt for start in pages)
+    _, taken, _ = database.execute('PRAGMA wal_checkpoint').fetchone()
+    lost = max(written, 1) - max(taken, 0)
+    if lost > 0:
+        yield f'{lost} pages of its {WAL} are damaged or were not committed'
+
+
+def _content(path: Path, ending: str) -> bytes:
+    journal = Path(f'{path}{ending}')
+    return journal.read_bytes() if journal.is_file() else b''
+
+
+def _definitions(database: sqlite3.Connection) -> dict[str, str]:
+    """Definitions of the message types; bags before ROS 2 Iron hold none."""
+    tables = {name for (name,) in database.execute('SELECT name FROM sqlite_master')}
+    if b'message_definitions' not in tables:
+        return {}
+    rows = database.execute(
+        'SELECT topic_type, encoded_message_definition FROM message_definitions'
+    )
+    return {_text(kind): _text(definition) for kind, definition in rows}
+
+
+def _contradictions(database: sqlite3.Connection) -> Iterator[str]:
+    """Say whether the pages of the file contradict each other, so that rows may be missing."""
+    try:
+        ((found,),) = database.execute('PRAGMA integrity_check(1)').fetchall()
+    except (sqlite3.Error, ValueError) as error:
+        found = str(error).encode()
+    if found != b'ok':
+        yield f'it is damaged, messages may be missing ({_text(found)})'
+
+
+def _text(value: Any) -> str:
+    return value.decode(errors='replace') if isinstance(value, bytes) else ''

@@ -1,0 +1,28 @@
+"""Why a message, or a sample of a recording, is no pair of tensions."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Reason(str, Enum):
+    """Why a message was dropped."""
+
+    WRONG_LENGTH = 'wrong length'
+    MISSING_CABLE = 'missing cable'
+    NOT_FINITE = 'not finite'
+    NEGATIVE = 'negative'
+    IMPLAUSIBLE = 'implausible'
+    BELOW_WEIGHT = 'below the weight'
+    OUT_OF_ORDER = 'out of order'
+    REPEATED_STAMP = 'repeated stamp'
+    UNPAIRED = 'unpaired'
+
+    @property
+    def is_of_content(self) -> bool:
+        """Whether the message holds no pair of tensions, and not only comes at the wrong time."""
+        return self not in (Reason.OUT_OF_ORDER, Reason.REPEATED_STAMP, Reason.UNPAIRED)
+
+
+Fault = tuple[Reason, str]
+"""Why there is no pair of tensions, and the same in a sentence for people"""

@@ -1,0 +1,28 @@
+"""How much is tried: all of it in CI, a part of it at the desk, where one waits.
+
+The profiles are hypothesis's own; `some_of` and `examples` scale with the one that is loaded.
+"""
+
+from __future__ import annotations
+
+import os
+
+from hypothesis import settings
+
+WHOLE = 100
+"""Examples of a property that asks for no other number, in CI"""
+
+# No test is timed. In CI the same examples come each time, at the desk always new ones.
+settings.register_profile('quick', deadline=None, max_examples=WHOLE // 4)
+settings.register_profile('thorough', deadline=None, max_examples=WHOLE, derandomize=True)
+settings.load_profile('thorough' if os.environ.get('CI') else 'quick')
+
+
+def some_of(count: int) -> int:
+    """Return how many of `count` are tried: all in CI."""
+    return count * settings().max_examples // WHOLE
+
+
+def examples(count: int) -> settings:
+    """Try so many examples of a property, in CI, and a part of them elsewhere."""
+    return settings(max_examples=some_of(count))

@@ -1,0 +1,77 @@
+"""What looks as if it were in another unit is said, in every verb that reads a recording."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from designs import PRELIMINARY
+from programs import run
+
+from tendon_statics import Recording
+from tendon_statics.recordings.hints import hints
+
+ONES = np.ones(5)
+TIMES = np.arange(5.0)
+
+
+@pytest.mark.parametrize(
+    ('more', 'named'),
+    [
+        ({'bend_angle': [12.0, 15.0, 17.0, 0.0, 1.0]}, 'bend_angle [deg]'),
+        ({'bend_angle': [0.1, 0.0, 0.0, 0.0, -20.0]}, 'bend_angle [deg]'),
+        ({'bend_angle': [0.7, 0.7, 0.1, 0.1, np.nan]}, 'too small a max_bend_angle'),
+        ({'tension_l': 1000.0 * ONES, 'tension_s': 1500.0 * ONES}, '--units tension=mN'),
+        ({'tension_l': 102.0 * ONES, 'tension_s': 153.0 * ONES}, 'gf'),
+        ({'tension_l': 1e4 * ONES, 'tension_s': 1.5e4 * ONES}, 'cable_l.gain'),
+        ({'tension_l': 0.001 * ONES, 'tension_s': 0.0015 * ONES}, '[kgf]'),
+        ({'time': 10.0 * TIMES}, 'time [ms]'),
+        ({'time': 2e4 * TIMES}, 'time [us]'),
+        ({'time': 1e7 * TIMES}, 'time [ns]'),
+        ({'time': 1e-8 * TIMES}, 'may be a larger one'),
+    ],
+)
+def test_a_quantity_that_no_unit_has_is_doubted(more, named):
+    values = {'tension_l': ONES, 'tension_s': 1.5 * ONES, **more}
+    (hint,) = hints(Recording(**values), PRELIMINARY)
+    assert named in hint
+    assert '\n' not in hint
+
+
+@pytest.mark.parametrize(
+    'more',
+    [
+        {},
+        {'bend_angle': [0.53, -0.53, 0.0, 0.52, np.nan]},
+        {'bend_angle': [np.nan] * 5},
+        {'bend_angle': [0.1] * 4 + [3.0], 'tension_l': [0.0] * 5},
+        {'time': TIMES},
+        {'time': 0.001 * TIMES},
+        {'time': [np.nan] * 5},
+        {'tension_l': [np.nan] * 5, 'tension_s': [np.nan] * 5},
+        {'tension_l': 20.0 * ONES},
+    ],
+)
+def test_a_sound_recording_is_not_doubted(more):
+    values = {'tension_l': ONES, 'tension_s': 1.5 * ONES, **more}
+    if 'bend_angle' in more and 3.0 in more['bend_angle']:
+        values['bend_angle'] = np.r_[np.full(50, 0.1), 3.0]
+        values |= {'tension_l': np.ones(51), 'tension_s': np.ones(51)}
+    assert hints(Recording(**values), PRELIMINARY) == []
+
+
+def test_what_is_heavy_for_one_unit_is_light_for_another():
+    recording = Recording(100.0 * ONES, 150.0 * ONES)
+    assert hints(recording, PRELIMINARY)
+    assert hints(recording, dataclasses.replace(PRELIMINARY, mass=2.0)) == []
+
+
+@pytest.mark.parametrize('verb', ['replay', 'track', 'calibrate', 'report', 'plot recording'])
+def test_every_verb_gives_the_hint_on_degrees_whatever_the_regime(tmp_path, verb):
+    path = tmp_path / 'run.csv'
+    path.write_text('time,tension_l,tension_s,bend_angle\n0,1,1.5,12\n1,1,1.5,15\n2,1,1.6,17\n')
+    output = tmp_path / ('out.svg' if verb.startswith('plot') else 'out.html')
+    more = ('--output', output) if verb.split()[0] in ('report', 'plot') else ()
+    done = run(*verb.split(), path, *more)
+    said = done.stdout + done.stderr + (output.read_text() if verb == 'report' else '')
+    assert 'of the measured angles lie beyond the stop' in said
+    assert 'bend_angle [deg]' in said

@@ -1,0 +1,204 @@
+"""Tables as spreadsheets, LabVIEW, MATLAB, PlotJuggler and `rostopic echo` write them."""
+
+import math
+
+import numpy as np
+import pytest
+from programs import assert_refused, run
+
+from tendon_statics.recordings.errors import RecordingError
+from tendon_statics.recordings.reading.load import load_recording
+from tendon_statics.recordings.reading.table_options import TableOptions
+
+PAIRS = [(1.0, 1.5), (1.0, 1.6)]
+
+
+@pytest.fixture
+def file(tmp_path):
+    def write(text, name='run.csv', encoding='utf-8'):
+        path = tmp_path / name
+        path.write_bytes(text.encode(encoding))
+        return path
+
+    return write
+
+
+LABVIEW = (
+    'LabVIEW Measurement\t\nSeparator\t{name}\nDecimal_Separator\t{decimal}\n'
+    'X_Columns\t{columns}\n'
+    '***End_of_Header***\t\n\t\nChannels\t2\nSamples\t2\t2\nX_Dimension\tTime\tTime\n'
+    '***End_of_Header***\t\nX_Value\ttension_l\ttension_s\tComment\n'
+)
+
+
+@pytest.mark.parametrize(
+    ('text', 'said'),
+    [
+        ('time,tension_l,tension_s\n0,1,1.5\n1,1,1.6\n', ()),
+        ('time;tension_l;tension_s\n0;1;1.5\n1;1;1.6\n', ('separated by semicolon',)),
+        (
+            'time;tension_l;tension_s\n0,0;1,0;1,5\n1,0;1,0;1,6\n',
+            ('separated by semicolon', 'decimals are written with a comma'),
+        ),
+        ('time\ttension_l\ttension_s\n0\t1\t1.5\n1\t1\t1.6\n', ('separated by tab',)),
+        ('sep=;\ntime;tension_l;tension_s\n0;1;1.5\n1;1;1.6\n', ('separated by semicolon',)),
+        ('time;tension_l;tension_s\n0;1;1.5;\n1;1;1.6;\n', ('separated by semicolon',)),
+        ('time|tension_l|tension_s\n0|1|1.5\n1|1|1.6\n', ('separated by bar',)),
+        ('time | tension_l | tension_s\n0 | 1 | 1.5\n1 | 1 | 1.6\n', ('separated by bar',)),
+        ('time tension_l  tension_s\n0 1 1.5\n1   1 1.6\n', ('separated by space',)),
+        ('time,tension_l,tension_s\n"0,0","1,0","1,5"\n"1,0",1,"1,6"\n', ('with a comma',)),
+        ('% a run\n# of MATLAB\ntime,tension_l,tension_s\n0,1,1.5\n% pause\n1,1,1.6\n', ()),
+        ('# a run\n# time tension_l tension_s\n0 1 1.5\n1 1 1.6\n', ('separated by space',)),
+        ('%time,tension_l,tension_s\n0,1,1.5\n1,1,1.6\n', ('the column %time, in s',)),
+        ('time,tension_l,tension_s\ns,N,N\n0,1,1.5\n1,1,1.6\n', ('units: those of line 2',)),
+        (
+            'time,tension_l,tension_s,note\n[ms],[mN],[mN],\n0,1000,1500,a\n1000,1000,1600,b\n',
+            ('units: those of line 2',),
+        ),
+        (
+            LABVIEW.format(name='Tab', decimal=',', columns='One')
+            + '0,000000\t1,0\t1,5\n1,000000\t1,0\t1,6\tpause\n',
+            ('a measurement file of LabVIEW',),
+        ),
+        (
+            LABVIEW.replace('\t', ',').format(name='Comma', decimal='.', columns='One')
+            + '0.0,1,1.5\n1.0,1.0,1.6\n',
+            ('a measurement file of LabVIEW',),
+        ),
+    ],
+)
+def test_what_is_recognised_for_sure_is_read_and_said(file, text, said):
+    recording = load_recording(file(text)).whole()
+    assert recording.tensions() == PAIRS
+    assert recording.time.tolist() == [0.0, 1.0]
+    assert len(recording.notes) == len(said)
+    for note, part in zip(recording.notes, said, strict=True):
+        assert part in note
+
+
+def test_a_labview_file_without_times_has_none(file):
+    text = LABVIEW.format(name='Tab', decimal='.', columns='No') + '\t1.0\t1.5\n\t1.0\t1.6\n'
+    recording = load_recording(file(text, 'run.lvm')).whole()
+    assert recording.tensions() == PAIRS
+    assert recording.time is None
+
+
+@pytest.mark.parametrize('encoding', ['utf-16', 'utf-8-sig'])
+def test_a_byte_order_mark_says_the_encoding(file, encoding):
+    recording = load_recording(file('tension_l;tension_s\n1,0;1,5\n1,0;1,6\n', encoding=encoding))
+    assert recording.whole().tensions() == PAIRS
+    assert ('encoding: UTF-16' in recording.notes) == (encoding == 'utf-16')
+
+
+@pytest.mark.parametrize(
+    ('encoding', 'named'),
+    [('latin-1', 'byte 0xb0; if it is Latin-1, --encoding latin-1'), ('utf-16-le', 'utf-16-le')],
+)
+def test_an_encoding_that_is_not_sure_is_named_with_the_option_that_reads_it(
+    file, encoding, named
+):
+    text = 'tension_l,tension_s,bend_angle [°]\n1,1.5,180\n1,1.6,90\n'
+    path = file(text, encoding=encoding)
+    assert_refused(run('replay', path), named)
+    recording = load_recording(path, table=TableOptions(encoding=encoding)).whole()
+    assert recording.tensions() == PAIRS
+    assert recording.bend_angle == pytest.approx([math.pi, math.pi / 2])
+
+
+@pytest.mark.parametrize(
+    ('text', 'options', 'named'),
+    [
+        (
+            'tension_l;tension_s\n1,5;2,5\n1.000,5;2,5\n1.5;2,5\n',
+            {'decimal': ','},
+            '--decimal , or --decimal . says',
+        ),
+        ('Fz1,Fz2\n1,1.5\n', {'columns': {'tension_l': 'Fz1', 'tension_s': 'Fz2'}}, '--columns'),
+        ('a\nb\ntension_l,tension_s\n1,1.5\n', {'skip_rows': 2}, 'line 3 has them: --skip-rows 2'),
+    ],
+)
+def test_what_is_not_sure_is_refused_with_the_option_that_reads_it(file, text, options, named):
+    path = file(text)
+    with pytest.raises(RecordingError, match=named):
+        load_recording(path)
+    assert load_recording(path, table=TableOptions(**options)).tensions() in (
+        [(1.5, 2.5)],
+        [(1.0, 1.5)],
+    )
+
+
+@pytest.mark.parametrize('word', ['NaN', 'NA', 'N/A', '#N/A', 'null', 'None', '-1.#IND'])
+def test_what_programs_write_for_no_number_is_none(file, word):
+    recording = load_recording(file(f'tension_l,tension_s\n1,1.5\n1,{word}\n')).whole()
+    assert math.isnan(recording.tension_s[1])
+
+
+def test_a_long_rest_of_whole_numbers_does_not_hide_how_decimals_are_written(file):
+    rest = '0;0;0\n' * 500
+    recording = load_recording(file(f'time;tension_l;tension_s\n{rest}0,5;1,0;1,5\n')).whole()
+    assert recording.tensions()[-1] == (1.0, 1.5)
+
+
+def test_commas_between_columns_and_in_numbers_are_not_guessed_at(file):
+    with pytest.raises(RecordingError, match='commas separate both'):
+        load_recording(file('tension_l,tension_s\n1,0,1,5\n1,0,1,6\n'))
+
+
+def test_a_point_between_thousands_is_no_decimal_point(file):
+    recording = load_recording(
+        file('tension_l;tension_s\n1,5;2,5\n1.000,5;2,5\n'), table=TableOptions(decimal=',')
+    )
+    assert recording.tensions() == [(1.5, 2.5)]
+    assert 'line 3' in recording.damage_summary
+
+
+def test_the_command_line_has_all_the_options(file):
+    path = file('x\nForce A;Force B [mN];phi\n1000,0;1500,0;10\n1000,0;1600,0;20\n')
+    done = run(
+        *('replay', path, '--skip-rows', 1, '--separator', 'semicolon', '--decimal', ','),
+        *('--columns', 'tension_l=Force A,tension_s=Force B,bend_angle=phi'),
+        *('--units', 'tension_l=mN,bend_angle=deg', '--encoding', 'utf-8'),
+        *('--output', path.with_name('out.csv')),
+    )
+    assert done.returncode == 0, done.stderr
+    again = load_recording(path.with_name('out.csv'))
+    assert again.tensions() == PAIRS
+    assert again.bend_angle == pytest.approx(np.radians([10.0, 20.0]))
+
+
+@pytest.mark.parametrize(
+    ('given', 'named'),
+    [
+        ({'separator': 'ab'}, "separator is 'ab'; one character"),
+        ({'separator': '"'}, 'one character'),
+        ({'decimal': ';'}, 'allowed are . and ,'),
+        ({'decimal': ',', 'separator': ','}, 'cannot separate both'),
+        ({'skip_rows': -1}, '-1 lines'),
+        ({'columns': {'force': 'a'}}, "'force' is no quantity; there are time, tension_l"),
+        ({'units': {'tension_l': 'lbf'}}, "tension_l is 'lbf', which is not known; there are N"),
+        ({'units': {'state': 's'}}, "'state' is no quantity"),
+        ({'encoding': 'klingon'}, "no encoding 'klingon'"),
+    ],
+)
+def test_options_that_no_table_can_meet_are_refused_before_one_is_read(given, named):
+    with pytest.raises(RecordingError, match=named):
+        TableOptions(**given)
+
+
+@pytest.mark.parametrize(
+    ('options', 'named'),
+    [
+        ({'columns': {'tension_l': 'F3', 'tension_s': 'F2'}}, "no column 'F3' to be tension_l"),
+        ({'columns': {'tension_l': 'F1', 'tension_s': 'F2'}}, "2 columns 'F1'"),
+        ({'columns': {'tension_l': 'F2', 'tension_s': 'F4'}, 'units': {'tension': 'N'}}, 'says N'),
+    ],
+)
+def test_an_option_that_does_not_fit_the_table_is_refused(file, options, named):
+    path = file('F1,F1,F2 [mN],F4 [mN]\n1,2,3,4\n')
+    with pytest.raises(RecordingError, match=named):
+        load_recording(path, table=TableOptions(**options))
+
+
+@pytest.mark.parametrize('text', ['a', 'tension_l=', '=a', 'tension_l=a,tension_l=b'])
+def test_pairs_of_an_option_that_are_none_are_refused(text):
+    assert run('replay', 'x.csv', '--columns', text).returncode == 2
