@@ -94,7 +94,7 @@ EQUATOR_SEAT = TightSeat(60.0, 88.49)
 BOWL = LooseBowl(0.005)
 
 CASES: tuple[tuple[Construction, float], ...] = (
-    *((LOW_SEAT, friction) for friction in (0.1, 0.3, 0.5, 1.05)),
+    *((LOW_SEAT, friction) for friction in (0.1, 0.3, 0.4, 0.5, 1.05)),
     *((EQUATOR_SEAT, friction) for friction in (0.1, 0.3, 0.5, 1.05)),
     *((BOWL, friction) for friction in (0.1, 0.3, 0.5, 1.05)),
 )

@@ -17,6 +17,8 @@ CHANGES = {
     'contact time halved': {'steps_per_contact_time': 5.0},
     'damping ratio 1.4': {'damping_ratio': 1.4},
     'impedance 0.99': {'impedance': 0.99},
+    "friction impedance ratio 1, MuJoCo's default": {'friction_impedance_ratio': 1.0},
+    'the same, 20 no-slip iterations': {'friction_impedance_ratio': 1.0, 'no_slip_iterations': 20},
     'friction impedance ratio 100': {'friction_impedance_ratio': 1e2},
     'friction impedance ratio 10^6': {'friction_impedance_ratio': 1e6},
     '20 no-slip iterations': {'no_slip_iterations': 20},

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tendon_statics.command_line.figures import BLUE, GREEN, VERMILION, write_figure
+from tendon_statics.command_line.figures import BLUE, GREEN, GREY, VERMILION, write_figure
 
-from . import rest
-from .constructions import BALL_RADIUS, BOWL, CASES, EQUATOR_SEAT, HANGING, LOW_SEAT
+from . import foundation, rest
+from .constructions import BALL_RADIUS, BOWL, CASES, EQUATOR_SEAT, HANGING, LOW_SEAT, TightSeat
 from .laws import LAWS, capacity
 from .results import Results, read
 
@@ -37,6 +37,8 @@ def draw(drawing: Figure, results: Results) -> None:
             moments = [capacity(law, construction, friction, 1.0) for friction in FRICTIONS]
             if None not in moments:
                 axes.plot(FRICTIONS, np.array(moments) / BALL_RADIUS, label=law, **STYLES[law])
+        if isinstance(construction, TightSeat):
+            _integrated(axes, construction)
         onsets = [
             onset
             for (simulated, _), onset in zip(CASES, results.onsets, strict=True)
@@ -52,7 +54,28 @@ def draw(drawing: Figure, results: Results) -> None:
         axes.set_ylabel('slip onset K / (r T)')
     _draw_rest(panels[1, 1], results)
     handles, labels = panels[0, 0].get_legend_handles_labels()
-    drawing.legend(handles, labels, loc='outside lower center', ncols=len(labels), frameon=False)
+    drawing.legend(
+        handles,
+        labels,
+        loc='outside lower center',
+        ncols=len(labels),
+        frameon=False,
+        columnspacing=1.2,
+        handlelength=1.9,
+    )
+
+
+def _integrated(axes: Axes, seat: TightSeat) -> None:
+    pads, frictions = seat.pads(24, 96), FRICTIONS[::3]
+    moments = [foundation.capacity(pads, friction, 1.0) for friction in frictions]
+    axes.plot(
+        frictions,
+        np.array(moments) / BALL_RADIUS,
+        color=GREY,
+        linestyle=':',
+        linewidth=2.4,
+        label='integration',
+    )
 
 
 def _draw_rest(axes: Axes, results: Results) -> None:

@@ -20,11 +20,12 @@ def onset_table(results: Results) -> str:
     rows = []
     for (construction, friction), onset in zip(CASES, results.onsets, strict=True):
         cells = [construction.name, f'{friction:g}', f'{onset.rigid_body:.4f}']
-        cells += [f'{onset.bristles:.4f}', _number(onset.foundation, '.4f')]
+        cells.append(f'{onset.bristles:.4f}')
+        cells.append('–' if onset.foundation is None else f'{onset.foundation:.4f}')
         for law in LAWS:
             moment = capacity(law, construction, friction, tension=1.0)
-            off = moment and moment / (BALL_RADIUS * onset.rigid_body) - 1.0
-            cells.append(_number(off and 100.0 * off, '+.1f', ' %'))
+            ratio = moment and moment / (BALL_RADIUS * onset.rigid_body)
+            cells.append('–' if ratio is None else _change(ratio, 1))
         rows.append(cells)
     header = ('construction', 'μ:', 'rigid body:', 'bristles:', 'integration:')
     return markdown_table((*header, *(f'`{law}`:' for law in LAWS)), rows)
@@ -61,7 +62,7 @@ def first_slip_table() -> str:
             steady = held_moment(construction, friction)
             rows.append([f'{friction:g}', f'{steady:.4f}'])
             for moment in first_moments(construction, friction):
-                rows[-1].append(f'{moment:.4f} ({100.0 * (moment / steady - 1.0):+.0f} %)')
+                rows[-1].append(f'{moment:.4f} ({_change(moment / steady, 1)})')
     header = ('μ:', 'sliding:', 'first, seated with friction:', 'first, seated without:')
     return markdown_table(header, rows)
 
@@ -76,13 +77,12 @@ def convergence_table(results: Results) -> str:
     rows = [[*_case(construction.name, friction), 'as above', f'{default:.4f}', '']]
     for trial in results.trials:
         reference = references[trial.construction, trial.friction]
-        change = 100.0 * (trial.rigid_body / reference - 1.0)
         rows.append(
             [
                 *_case(trial.construction, trial.friction),
                 trial.setting,
                 f'{trial.rigid_body:.4f}',
-                f'{change:+.2f} %',
+                _change(trial.rigid_body / reference, 2),
             ]
         )
     return markdown_table(('construction', 'μ:', 'setting', 'K / (r T):', 'change:'), rows)
@@ -92,8 +92,9 @@ def _case(construction: str, friction: float) -> tuple[str, str]:
     return construction, f'{friction:g}'
 
 
-def _number(value: float | None, form: str, unit: str = '') -> str:
-    return '–' if value is None else f'{value:{form}}{unit}'
+def _change(ratio: float, digits: int) -> str:
+    percent = round(100.0 * (ratio - 1.0), digits) + 0.0  # which makes −0 a 0
+    return f'{percent:+.{digits}f} %'
 
 
 TABLES = {
