@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from .batch import EquilibriumBatch, solve_batch
     from .calibration import calibrate
     from .calibration_result import Calibration
+    from .filter import FilterState, StickSlipFilter
 
 __all__ = [
     'CONTACT_LAWS',
@@ -46,11 +47,13 @@ __all__ = [
     'DesignParameter',
     'Equilibrium',
     'EquilibriumBatch',
+    'FilterState',
     'ForceRemainder',
     'JointDesign',
     'Load',
     'LoadError',
     'Regime',
+    'StickSlipFilter',
     'StickSlipTracker',
     'TensionError',
     'TensionGradient',
@@ -75,12 +78,17 @@ def __getattr__(name: str) -> Any:
         from . import batch
 
         return getattr(batch, name)
+    if name in ('FilterState', 'StickSlipFilter'):
+        from . import filter
+
+        return getattr(filter, name)
     if name == 'calibrate':
         from .calibration import calibrate
 
         return calibrate
     if name == 'Calibration':
         from .calibration_result import Calibration
+    from .filter import FilterState, StickSlipFilter
 
         return Calibration
     raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
