@@ -1,5 +1,6 @@
 """The quasi-static model of a tendon-driven ball-joint unit: no ROS, no files, no printing."""
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from .admissible import admissible_angles, slip_margin
@@ -72,23 +73,18 @@ __all__ = [
 ]
 
 
+_NEEDING_NUMPY = {
+    'Calibration': '.calibration_result',
+    'EquilibriumBatch': '.batch',
+    'FilterState': '.filter',
+    'StickSlipFilter': '.filter',
+    'calibrate': '.calibration',
+    'solve_batch': '.batch',
+}
+"""Public name → the module that has it, loaded only by who asks for it"""
+
+
 def __getattr__(name: str) -> Any:
-    # NumPy is loaded only by who asks for what needs it.
-    if name in ('EquilibriumBatch', 'solve_batch'):
-        from . import batch
-
-        return getattr(batch, name)
-    if name in ('FilterState', 'StickSlipFilter'):
-        from . import filter
-
-        return getattr(filter, name)
-    if name == 'calibrate':
-        from .calibration import calibrate
-
-        return calibrate
-    if name == 'Calibration':
-        from .calibration_result import Calibration
-    from .filter import FilterState, StickSlipFilter
-
-        return Calibration
-    raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
+    if name not in _NEEDING_NUMPY:
+        raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
+    return getattr(import_module(_NEEDING_NUMPY[name], __name__), name)
