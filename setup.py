@@ -7,7 +7,7 @@ share = f'share/{package_name}'
 
 setup(
     name=package_name,
-    version='0.1.0',
+    version='0.2.0',
     packages=find_packages(include=[package_name, f'{package_name}.*']),
     package_data={package_name: ['py.typed']},
     data_files=[
@@ -24,7 +24,7 @@ setup(
         'calibration': ['scipy>=1.11.4'],
         'recordings': [
             'lz4>=4',
-            'mcap>=1.1',
+            'mcap>=1.2.1',
             'pyarrow>=15',
             'rosbags>=0.10.8',
             'tqdm>=4.64',

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         Regime,
         StickSlipFilter,
         StickSlipTracker,
+        TendonStaticsError,
         TensionError,
         TensionGradient,
         Tensions,
@@ -43,10 +44,13 @@ if TYPE_CHECKING:
     from .recordings.errors import RecordingError
     from .recordings.motion import mark_motion
     from .recordings.reading.load import load_recording
+    from .recordings.reading.table_options import TableOptions
+    from .recordings.reading.topics import BagTopics
     from .recordings.recording import Recording
 
 __all__ = [
     'UPRIGHT',
+    'BagTopics',
     'BendAngleError',
     'Calibration',
     'CalibrationError',
@@ -64,6 +68,8 @@ __all__ = [
     'Regime',
     'StickSlipFilter',
     'StickSlipTracker',
+    'TableOptions',
+    'TendonStaticsError',
     'TensionError',
     'TensionGradient',
     'Tensions',
@@ -85,6 +91,8 @@ __all__ = [
 ]
 
 _NOT_OF_PHYSICS = {
+    'BagTopics': '.recordings.reading.topics',
+    'TableOptions': '.recordings.reading.table_options',
     'Recording': '.recordings.recording',
     'RecordingError': '.recordings.errors',
     'default_design_path': '.files.design_file',

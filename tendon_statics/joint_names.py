@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 from .files.parameter_file import node_parameter
 from .files.yaml_file import YamlFileError, read_yaml
+from .physics.errors import TendonStaticsError
 
 
-class JointNameError(ValueError):
+class JointNameError(TendonStaticsError, ValueError):
     """A name of a joint cannot be told; the text is for the user."""
 
 

@@ -8,9 +8,10 @@ from xml.parsers.expat import ExpatError
 from ament_index_python.packages import get_package_share_directory
 
 from .joint_names import JointNames
+from .physics.errors import TendonStaticsError
 
 
-class DescriptionError(RuntimeError):
+class DescriptionError(TendonStaticsError, RuntimeError):
     """A unit cannot be described; the text is for the user."""
 
 

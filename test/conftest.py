@@ -1,6 +1,8 @@
 """Keeps every test on this machine and in a ROS domain of its own worker."""
 
 import os
+from contextlib import ExitStack
+from dataclasses import asdict
 
 import pytest
 import thoroughness  # noqa: F401  which chooses hypothesis's profile
@@ -17,7 +19,11 @@ def pytest_xdist_auto_num_workers():
 def pytest_collection_modifyitems(items):
     """Mark the tests of the node: those that run a program, or listen to one."""
     for item in items:
-        if 'Program' in vars(item.module) or 'listener' in item.fixturenames:
+        if (
+            'Program' in vars(item.module)
+            or 'listener' in item.fixturenames
+            or 'running' in item.fixturenames
+        ):
             item.add_marker(pytest.mark.node)
 
 
@@ -36,7 +42,37 @@ def ros_domain():
 @pytest.fixture
 def listener():
     """A node that keeps what the estimator publishes."""
-    from ros_programs import Listener, spinning
+    from listener import Listener
+    from ros_programs import spinning
 
     with spinning(Listener) as node:
         yield node
+
+
+@pytest.fixture(scope='module')
+def shared_listener():
+    """A listener and, in a domain that is theirs, an estimator with its defaults."""
+    from listener import Listener
+    from ros_domain import free_domain, in_domain
+    from ros_programs import spinning
+
+    with free_domain() as domain, ExitStack() as stack:
+        # Only they: what a test starts beside them starts in the domain of the run.
+        with in_domain(domain):
+            listener = stack.enter_context(spinning(Listener))
+            stack.enter_context(listener.estimator())
+        yield listener
+
+
+@pytest.fixture
+def running(shared_listener):
+    """A listener whose estimator runs already; what a test sets is set back."""
+    from designs import PRELIMINARY
+    from ros_programs import wait_for
+
+    yield shared_listener
+    design = {f'design__{name}': value for name, value in asdict(PRELIMINARY).items()}
+    result = shared_listener.set_estimator_parameters(**design, tension_stddev=0.01)
+    assert result.successful, result.reason
+    wait_for('the rest of the answers', shared_listener.has_all)
+    shared_listener.forget()

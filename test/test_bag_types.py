@@ -90,6 +90,70 @@ def test_fewer_efforts_than_names_are_of_wrong_length(tmp_path):
     assert 'invalid       wrong length 1\n' in run('replay', file).stdout
 
 
+@pytest.mark.parametrize(
+    ('names', 'efforts'),
+    [(['cable_l', 'cable_l', 'cable_s'], [1.0, 3.0, 2.0]), (CABLES, [1.0, 2.0, 3.0])],
+)
+def test_whose_an_effort_is_is_not_guessed(tmp_path, names, efforts):
+    file = write(
+        tmp_path,
+        ('/tensions', 0.0, bags.joint_state(names, effort=efforts, time=0.0)),
+        ('/tensions', 0.1, bags.joint_state(CABLES, effort=[1.0, 1.5], time=0.1)),
+    )
+    assert load_recording(file).faults == ['wrong length', '']
+
+
+def test_a_dynamic_joint_state_whose_parts_do_not_fit_is_of_wrong_length(tmp_path):
+    held = [{'effort': 1.0}, {'effort': 2.0}]
+    short = dynamic(CABLES, held[:1], 0.0)
+    odd = dynamic(CABLES, held, 0.1)
+    odd.interface_values[0].values = np.array([1.0, 2.0])
+    file = write(
+        tmp_path,
+        ('/tensions', 0.0, short),
+        ('/tensions', 0.1, odd),
+        ('/tensions', 0.2, dynamic(CABLES, held, 0.2)),
+    )
+    assert load_recording(file).faults == ['wrong length', 'wrong length', '']
+
+
+@pytest.mark.parametrize('encoding', ['ros1', 'json'])
+def test_an_mcap_file_with_messages_of_ros_1_is_read_and_other_encodings_are_named(
+    tmp_path, encoding
+):
+    from mcap.writer import Writer
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS1_NOETIC)
+    kind = 'std_msgs/msg/Float64MultiArray'
+    layout = store.types['std_msgs/msg/MultiArrayLayout'](dim=[], data_offset=0)
+    data = store.serialize_ros1(store.types[kind](layout=layout, data=np.array([1.0, 2.0])), kind)
+    file = tmp_path / 'run.mcap'
+    with file.open('wb') as stream:
+        writer = Writer(stream)
+        writer.start(profile='ros1')
+        definition, _ = store.generate_msgdef(kind, ros_version=1)
+        schema = writer.register_schema(
+            'std_msgs/Float64MultiArray', 'ros1msg', definition.encode()
+        )
+        channel = writer.register_channel('/tensions', encoding, schema)
+        writer.add_message(channel, 5, bytes(data), 5)
+        writer.finish()
+    if encoding == 'ros1':
+        assert load_recording(file).whole().tensions() == [(1.0, 2.0)]
+        return
+    with pytest.raises(RecordingError, match='1 messages on /tensions cannot be read'):
+        load_recording(file)
+
+
+def test_a_type_that_the_units_file_does_not_mean_is_refused_with_the_way_out(tmp_path):
+    file = write(tmp_path, ('/tensions', 0.0, bags.joint_state(CABLES, effort=[1.0, 2.0])))
+    with pytest.raises(
+        RecordingError, match=r'as the tension source is array \(--tension-source\)'
+    ):
+        load_recording(file, BagTopics(tension_source='array'))
+
+
 @pytest.mark.parametrize('slash', ['', '/'])
 def test_a_topic_is_found_with_and_without_its_slash(tmp_path, slash):
     from mcap.writer import Writer

@@ -2,10 +2,12 @@
 
 import math
 import pickle
+import random
 import subprocess
 import sys
 from dataclasses import replace
 
+import brute
 import numpy as np
 import pytest
 from designs import PRELIMINARY, random_cases, random_design, random_tensions, tensions_at_slip
@@ -13,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from thoroughness import examples
 
-from tendon_statics import JointDesign, Regime, TensionError, solve, solve_batch
+from tendon_statics import JointDesign, Load, Regime, TensionError, solve, solve_batch
 from tendon_statics.physics import batch as batch_module
 from tendon_statics.physics.batch import INVALID, REGIME_CODES
 from tendon_statics.physics.tensions import MAX_TENSION
@@ -260,6 +262,22 @@ def test_any_array_like_will_do(tension_l, tension_s, shape):
     assert_is_a_loop_of_solve(PRELIMINARY, tension_l, tension_s)
 
 
+def test_loads_in_an_array_are_those_of_a_loop_of_solve():
+    draw = random.Random(31)
+    design = replace(PRELIMINARY, contact_law='elastic_seat')
+    loads = [
+        Load.tilted(draw.uniform(-3.0, 3.0), (draw.gauss(0.0, 0.1), draw.gauss(0.0, 0.1)), 0.03)
+        for _ in range(60)
+    ]
+    pairs = np.array([(draw.uniform(0.3, 3.0), draw.uniform(0.3, 3.0)) for _ in loads])
+    answers = solve_batch(design, *pairs.T, loads)
+    for index, load in enumerate(loads):
+        alone = solve(design, *pairs[index].tolist(), load)
+        assert answers.regime_names[index] == alone.regime.value
+        if alone.bend_angle is not None:
+            assert answers.bend_angle[index] == pytest.approx(alone.bend_angle, abs=1e-9)
+
+
 def test_the_inputs_are_left_alone():
     tension_l, tension_s = np.array([2.0, -1.0, 1.0]), np.array([1.0, 1.0, math.nan])
     tension_l.flags.writeable = tension_s.flags.writeable = False
@@ -319,3 +337,14 @@ def test_numpy_is_loaded_only_for_a_batch():
         'assert "numpy" in sys.modules\n'
     )
     subprocess.run([sys.executable, '-c', code], check=True, timeout=60)
+
+
+def test_margins_are_those_of_solve_under_every_law():
+    draw = random.Random(9)
+    for case in [brute.random_case(draw) for _ in range(60)]:
+        answers = solve_batch(case.design, [case.tension_l], [case.tension_s], case.load)
+        expected = solve(case.design, case.tension_l, case.tension_s, case.load).slip_margin
+        if expected is None:
+            assert math.isnan(answers.slip_margin[0])
+        else:
+            assert answers.slip_margin[0] == pytest.approx(expected, rel=1e-9)

@@ -21,7 +21,7 @@ from thoroughness import some_of
 
 from tendon_statics import CalibrationError, Recording, calibrate
 from tendon_statics.physics import design_parameters, paper
-from tendon_statics.physics.slip_boundary import boundary_distance
+from tendon_statics.physics.calibration.boundary_distance import boundary_distance
 
 THREE = ('mass', 'cable_offset', 'friction_coefficient')
 PUBLISHED = Recording([paper.TENSION_L], [paper.TENSION_S], [paper.BEND_ANGLE], [paper.PRESSURE])
@@ -359,7 +359,7 @@ def test_a_start_whose_weight_is_just_below_a_sample_is_no_obstacle():
 
 
 def test_a_search_that_does_not_end_is_said(monkeypatch):
-    monkeypatch.setattr('tendon_statics.physics.calibration.MOST_DESIGNS', 2)
+    monkeypatch.setattr('tendon_statics.physics.calibration.problem.MOST_DESIGNS', 2)
     samples = measured(slipping_samples(20, np.random.default_rng(16)), np.random.default_rng(16))
     with pytest.raises(CalibrationError, match='has not ended after 2 designs'):
         calibrate(PRELIMINARY, recording(samples))

@@ -7,8 +7,8 @@ import pytest
 from designs import PRELIMINARY
 
 from tendon_statics import Recording
-from tendon_statics.physics.calibration_samples import SortedSamples
-from tendon_statics.physics.slip_boundary import Noise
+from tendon_statics.physics.calibration.boundary_distance import Noise
+from tendon_statics.physics.calibration.samples import SortedSamples
 
 NOISE = Noise(0.01, 0.01, 8.0)
 STOP = PRELIMINARY.max_bend_angle

@@ -32,9 +32,18 @@ def test_solve_as_text_gives_the_published_case():
 def test_solve_as_json_has_the_fields_of_equilibrium():
     done = run(*CASE, '--format', 'json')
     answer = json.loads(done.stdout)
-    expected = solve(PRELIMINARY, 1.0, 2.0).as_dict()
-    assert list(answer) == list(expected)
-    assert answer == json.loads(json.dumps(expected))
+    equilibrium = solve(PRELIMINARY, 1.0, 2.0)
+    expected = equilibrium.as_dict()
+    assert {key: answer[key] for key in expected} == json.loads(json.dumps(expected))
+    assert list(answer) == [
+        *('contact_law', 'load'),
+        *expected,
+        *('bend_angle_derivatives', 'pressure_derivatives'),
+    ]
+    assert answer['contact_law'] == 'merged'
+    assert answer['load']['base_tilt'] == 0.0
+    for name in ('bend_angle_derivatives', 'pressure_derivatives'):
+        assert answer[name] == getattr(equilibrium, name)
     assert math.degrees(answer['bend_angle']) == pytest.approx(17.14, abs=1e-5)
 
 

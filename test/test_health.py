@@ -1,13 +1,14 @@
 """What the estimator says about itself on /diagnostics, alone and over ROS."""
 
 import math
+import time
 
 from designs import PRELIMINARY
 from diagnostic_msgs.msg import DiagnosticStatus
-from rcl_interfaces.msg import ParameterType, ParameterValue
+from listener import Listener
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
-from ros_programs import Listener, Program, spinning, wait_for
+from ros_programs import Program, spinning, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray
 
@@ -125,12 +126,13 @@ def test_a_quiet_start_a_stream_and_its_end(listener):
     with listener.estimator('-p', 'input_timeout:=0.2', '-p', 'joint_name:=elbow') as program:
         since = len(listener.diagnostics)
         assert listener.answer(*SLIPPING) == 'equilibrium'
-        stale = listener.wait_for_status(STALE, 'no valid tensions for 0.2 s', since=since)
+        stale = listener.wait_for_status(STALE, 'no valid tensions for ', since=since)
         assert stale.name == 'estimator: estimation'
         assert stale.hardware_id == 'elbow'
         assert values(stale)['regime of newest tensions'] == 'equilibrium'
         assert 'No valid tensions on /tensions for 0.2 s' in program.output()
         since = len(listener.diagnostics)
+        sent = time.monotonic()
         assert listener.answer(*SLIPPING) == 'equilibrium'
 
         def recovered() -> list[DiagnosticStatus]:
@@ -138,15 +140,14 @@ def test_a_quiet_start_a_stream_and_its_end(listener):
 
         wait_for('that tensions come again', recovered)
         status = recovered()[0]
-        assert float(values(status)['age of newest tensions [s]']) < 0.2
+        assert float(values(status)['age of newest tensions [s]']) <= time.monotonic() - sent
         assert float(values(status)['mean solve time [ms]']) > 0.0
 
 
 def test_a_changed_timeout_counts_from_then(listener):
     with listener.estimator('-p', 'input_timeout:=60.0'):
         listener.answer(*SLIPPING)
-        value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=0.2)
-        assert listener.set_estimator_parameters(input_timeout=value).successful
+        assert listener.set_estimator_parameters(input_timeout=0.2).successful
         wait_for('that it is stale', lambda: listener.stale_regimes)
 
 
@@ -154,11 +155,10 @@ def test_stale_is_said_at_once_also_after_an_error(listener):
     with listener.estimator('-p', 'input_timeout:=0.1', '-p', 'cable_s.max_tension:=5.0'):
         for _ in range(3):
             listener.answer(*SLIPPING)
+            since = len(listener.diagnostics)
             listener.answer(1.0, 5.5)
-            wait_for('the report of it', lambda: listener.diagnostics[-1].level == ERROR)
-        since = len(listener.diagnostics)
-        wait_for('the next report', lambda: len(listener.diagnostics) > since)
-        wait_for('that it is stale', lambda: listener.diagnostics[-1].level == STALE)
+            listener.wait_for_status(ERROR, 'implausible tension', since=since)
+        listener.wait_for_status(STALE, 'no valid tensions', since=since)
 
 
 def test_an_angle_that_is_not_assured_is_a_warning(listener):
@@ -186,15 +186,16 @@ def test_stale_is_said_once_and_nothing_else_until_tensions_come_again(listener)
         assert listener.answer(*SLIPPING) == 'equilibrium'
         wait_for('all of the answer', lambda: listener.joint_states and listener.estimates)
         wait_for('that it is stale', lambda: listener.stale_regimes)
-        counts = [len(store) for store in listener._stores]
+        counts = listener.count_kept()
         said_before = len(listener.stale_regimes)
         since = len(listener.diagnostics)
         wait_for('two reports', lambda: len(listener.diagnostics) >= since + 2)
         assert len(listener.stale_regimes) == said_before
-        assert [len(store) for store in listener._stores] == counts
+        assert listener.count_kept() == counts
         # What is no tensions does not end it.
+        since = len(listener.diagnostics)
         assert listener.answer(math.nan, 1.0) == 'invalid'
-        listener.wait_for_status(STALE, 'not finite 1', since=len(listener.diagnostics))
+        listener.wait_for_status(STALE, 'not finite 1', since=since)
         assert listener.answer(*SLIPPING) == 'equilibrium'
         wait_for('stale again', lambda: len(listener.stale_regimes) == said_before + 1)
 

@@ -1,5 +1,6 @@
 """Eq. (4) as printed and corrected, and the two identified values."""
 
+import math
 from dataclasses import replace
 
 import pytest
@@ -44,3 +45,16 @@ def test_the_identified_values_follow_from_the_published_result_alone():
     equilibrium = solve(identified, paper.TENSION_L, paper.TENSION_S)
     assert equilibrium.bend_angle == pytest.approx(paper.BEND_ANGLE, abs=1e-9)
     assert equilibrium.pressure == pytest.approx(paper.PRESSURE, rel=1e-12)
+
+
+def test_the_plain_bisection_takes_its_halvings_and_ends_where_solve_does():
+    angle, halvings = paper.bisect(PRELIMINARY, paper.TENSION_L, paper.TENSION_S)
+    assert halvings == math.ceil(math.log2(PRELIMINARY.max_bend_angle / 1e-10)) == 33
+    answer = solve(PRELIMINARY, paper.TENSION_L, paper.TENSION_S)
+    assert angle == pytest.approx(answer.bend_angle, abs=1e-10, rel=0.0)
+    assert math.degrees(angle) == pytest.approx(17.14, abs=1e-6)
+
+
+@pytest.mark.parametrize('tension_s', [1.5, 3.0])
+def test_without_a_change_of_sign_there_is_nothing_to_bisect(tension_s):
+    assert paper.bisect(PRELIMINARY, 1.0, tension_s) is None

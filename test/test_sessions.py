@@ -1,5 +1,7 @@
 """`calibrate` takes no session for a list of slips, and writes no design it cannot believe."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from programs import assert_refused, run
@@ -75,3 +77,19 @@ def test_a_sound_fit_is_written(tmp_path):
     done = run('calibrate', path, '--output', output)
     assert done.returncode == 0, done.stderr
     assert output.exists()
+
+
+def test_a_value_at_the_end_of_its_range_is_not_written(tmp_path):
+    """Pressures of a unit whose cables run through the socket's edge, with noise below it."""
+    rng = np.random.default_rng(4)
+    truth = dataclasses.replace(TRUTH, cable_offset=0.0)
+    samples = slipping_samples(20, rng, truth)
+    samples[:, 1] += 0.1 * (samples[:, 1] - samples[:, 0])
+    samples[:, 3] *= 0.9
+    path, output = written(tmp_path / 'run.csv', samples), tmp_path / 'fitted.yaml'
+    options = ('--all-slipping', '--fit', 'cable_offset', '--output', output)
+    done = run('calibrate', path, *options)
+    assert done.returncode == 2
+    assert 'no design is written, since cable_offset = ' in done.stderr
+    assert 'is at the end of its range' in done.stderr
+    assert not output.exists()

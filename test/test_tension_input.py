@@ -7,8 +7,8 @@ import sys
 import pytest
 from builtin_interfaces.msg import Time
 from designs import PRELIMINARY
-from rcl_interfaces.msg import ParameterType, ParameterValue
-from ros_programs import Listener, Program, spinning, wait_for
+from listener import Listener
+from ros_programs import Program, spinning, wait_for
 from rosgraph_msgs.msg import Clock
 from test_health import values
 
@@ -16,10 +16,6 @@ from tendon_statics import solve
 
 HELD, SLIPPING, STOP = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0)
 STAMPED = ('joint_state', 'wrench_pair')
-
-
-def double(value: float) -> ParameterValue:
-    return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
 
 
 @pytest.fixture
@@ -114,7 +110,7 @@ def test_each_cable_has_its_own_unit(listener):
         wait_for('an answer', lambda: listener.publish(4.0, -1000.0) or listener.estimates)
         assert (listener.estimates[0].tension_l, listener.estimates[0].tension_s) == SLIPPING
         # Of the drivers' 4.0 and -1000.0, now in another unit.
-        assert listener.set_estimator_parameters(cable_l__bias=double(-1.5)).successful
+        assert listener.set_estimator_parameters(cable_l__bias=-1.5).successful
         listener.publish(4.0, -1000.0)
         wait_for('an estimate in that', lambda: listener.estimates[-1].tension_l == 0.5)
         listener.publish(4.0, -2501.0)
@@ -123,7 +119,7 @@ def test_each_cable_has_its_own_unit(listener):
             'the warning',
             lambda: 'tension_s is 3.501 N, allowed is 0 to 3.5 N' in program.output(),
         )
-        refused = listener.set_estimator_parameters(cable_s__gain=double(0.0))
+        refused = listener.set_estimator_parameters(cable_s__gain=0.0)
         assert 'cable_s.gain is 0.0' in refused.reason
 
 
@@ -179,9 +175,12 @@ def test_markers_only_if_asked_for(listener):
         listener.answer(*SLIPPING)
         assert listener.count_publishers('/estimator/markers') == 0
     with listener.estimator('-p', 'markers:=true', '-p', 'input_timeout:=0.2'):
-        wait_for('a drawing', lambda: listener.answer(*SLIPPING) and drawn)
-        drawn.clear()
-        wait_for('its end', lambda: drawn and drawn[-1].markers[0].action == Marker.DELETEALL)
+
+        def actions() -> list[int]:
+            return [message.markers[0].action for message in drawn]
+
+        wait_for('a drawing', lambda: listener.answer(*SLIPPING) and Marker.ADD in actions())
+        wait_for('its end', lambda: actions()[-1] == Marker.DELETEALL)
 
 
 def test_with_sensor_data_qos_any_driver_fits():

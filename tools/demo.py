@@ -11,8 +11,9 @@ import signal
 import subprocess
 import sys
 
+from estimator_client import EstimatorClient
 from ros_domain import own_domain
-from ros_programs import Listener, Program, spinning, wait_for
+from ros_programs import Program, spinning, wait_for
 from tendon_statics_interfaces.msg import Estimate
 
 from tendon_statics.command_line.tables import markdown_table
@@ -33,7 +34,7 @@ def main() -> None:
     play = ('-p', 'awaited_subscribers:=1', '-p', 'loop:=false', '-p', 'rate:=20.0')
     with (
         own_domain(),
-        spinning(Listener) as listener,
+        spinning(EstimatorClient) as listener,
         listener.estimator('--params-file', design, *reliable) as estimator,
     ):
         with Program.running('pulley_driver', '--ros-args', *play) as driver:
@@ -52,7 +53,7 @@ def main() -> None:
         raise RuntimeError(f'the published case came back as {published}')
 
 
-def has_answers(listener: Listener, count: int) -> bool:
+def has_answers(listener: EstimatorClient, count: int) -> bool:
     """Whether all that belongs to so many messages has come."""
     determined = sum(regime in DETERMINED for regime in listener.regimes)
     valid = sum(regime != 'invalid' for regime in listener.regimes)
@@ -64,7 +65,7 @@ def has_answers(listener: Listener, count: int) -> bool:
     )
 
 
-def print_table(rows: list[tuple[float, float]], listener: Listener) -> None:
+def print_table(rows: list[tuple[float, float]], listener: EstimatorClient) -> None:
     """Print what came back over the topics, a line for each row played."""
     angles, pressures = iter(listener.bend_angles), iter(listener.joint_pressures)
     estimates = iter(listener.estimates)

@@ -13,13 +13,26 @@ from domain_coordinator import domain_id
 @contextmanager
 def own_domain() -> Iterator[int]:
     """Take a ROS domain that nobody else on this machine has, and start nothing beyond it."""
+    # Whoever has a domain already is back in it afterwards; this one is then free for others.
+    with free_domain() as domain, in_domain(domain):
+        yield domain
+
+
+@contextmanager
+def free_domain() -> Iterator[int]:
+    """Hold a ROS domain that nobody else on this machine has."""
     # Entered by hand, since it would hide an exception behind one of its own.
     coordinator = domain_id()
     domain = coordinator.__enter__()
-    here = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'ROS_DOMAIN_ID': str(domain)}
     try:
-        # Whoever has a domain already is back in it afterwards; this one is then free for others.
-        with patch.dict(os.environ, here):
-            yield domain
+        yield domain
     finally:
         coordinator.__exit__(None, None, None)
+
+
+@contextmanager
+def in_domain(domain: int) -> Iterator[None]:
+    """Start what is started in a ROS domain, on this machine only."""
+    here = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'ROS_DOMAIN_ID': str(domain)}
+    with patch.dict(os.environ, here):
+        yield

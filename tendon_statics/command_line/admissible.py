@@ -9,8 +9,10 @@ from ..physics import admissible_angles
 from .options import (
     add_design_option,
     add_format_option,
+    add_load_options,
     add_tension_options,
     design_from,
+    load_from,
     print_json,
 )
 
@@ -18,13 +20,16 @@ from .options import (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the verb takes."""
     add_tension_options(parser)
+    add_load_options(parser)
     add_design_option(parser)
     add_format_option(parser)
 
 
 def run(options: argparse.Namespace) -> None:
     """Print the intervals."""
-    intervals = admissible_angles(design_from(options), options.tension_l, options.tension_s)
+    intervals = admissible_angles(
+        design_from(options), options.tension_l, options.tension_s, load_from(options)
+    )
     if options.format == 'json':
         print_json({'admissible_angles': intervals})
     elif not intervals:

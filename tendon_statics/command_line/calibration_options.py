@@ -8,8 +8,7 @@ import math
 
 from ..files.unit_file import Unit
 from ..physics import Calibration, CalibrationError, calibrate
-from ..physics.calibration import DEFAULT_FIT
-from ..physics.calibration_result import SLIPPING
+from ..physics.calibration import DEFAULT_FIT, SLIPPING
 from ..recordings.errors import RecordingError
 from ..recordings.hints import hints
 from ..recordings.motion import mark_motion

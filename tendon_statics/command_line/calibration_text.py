@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..physics import Calibration, design_parameters
-from ..physics.calibration_result import HELD, SLIPPING, FittedParameter
+from ..physics.calibration import HELD, SLIPPING, FittedParameter
 from .tables import Facts, fact_lines, markdown_table
 
 _UNITS = {parameter.name: parameter.unit or '1' for parameter in design_parameters()}

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..physics import Calibration
-from ..physics.calibration_result import HELD, SLIPPING
-from ..physics.slip_boundary import boundary_distance
+from ..physics.calibration import HELD, SLIPPING
+from ..physics.calibration.boundary_distance import boundary_distance
 from ..recordings.recording import Recording
 from .calibration_options import add_calibration_options, calibration_from
 from .figure_recording import MANY

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..physics import StickSlipTracker, admissible_angles, slip_margin
 from .figures import VERMILION
-from .pair_options import add_pair_options, between, pair_from
+from .pair_options import add_pair_options, between, pair_from, setting_title
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -19,24 +19,34 @@ add_arguments = add_pair_options
 def draw(drawing: Figure, options: argparse.Namespace) -> None:
     """Draw the path at a constant total, and the angles that friction can hold."""
     design, equilibrium = pair_from(options)
+    load = equilibrium.load
     axes = drawing.subplots()
     total = equilibrium.tension_l + equilibrium.tension_s
     # Far enough for the unit to slip both ways, within what the cables can trade.
     at_limit = [
-        abs(difference)
-        for difference in between(-0.999 * total, 0.999 * total, 1000)
-        if not admissible_angles(design, *_share(total, difference))
+        min(
+            (
+                share
+                for share in between(0.0, 0.999 * total, 500)
+                if not admissible_angles(design, *_share(total, side * share), load)
+            ),
+            default=0.8 * total,
+        )
+        for side in (-1.0, 1.0)
     ]
-    reach = min(1.25 * min(at_limit, default=0.8 * total), 0.999 * total)
+    reach = min(1.25 * max(at_limit), 0.999 * total)
     ramp = between(0.0, reach, 401) + between(reach, -reach, 801) + between(-reach, reach, 801)
     tracker = StickSlipTracker(design)
-    states = [tracker.update(*_share(total, difference)) for difference in ramp]
+    states = [tracker.update(*_share(total, difference), load) for difference in ramp]
 
     differences = between(-reach, reach, 401)
     stop = design.max_bend_angle
     angles = between(-stop, stop, 121)
     margins = [
-        [slip_margin(design, *_share(total, difference), angle) for difference in differences]
+        [
+            slip_margin(design, *_share(total, difference), angle, load)
+            for difference in differences
+        ]
         for angle in angles
     ]
     degrees = [math.degrees(angle) for angle in angles]
@@ -60,6 +70,7 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
     axes.set_ylabel('bend angle θ [°]')
     axes.set_ylim(-1.15 * math.degrees(stop), 1.15 * math.degrees(stop))
     axes.legend(loc='upper center', bbox_to_anchor=(0.5, 1.2), ncols=1, frameon=False)
+    drawing.suptitle('\n'.join(setting_title(design, load)), fontsize=10)
 
 
 def _share(total: float, difference: float) -> tuple[float, float]:

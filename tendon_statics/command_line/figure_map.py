@@ -11,7 +11,8 @@ import numpy as np
 from ..physics import EquilibriumBatch, Regime
 from ..physics.batch import REGIME_CODES
 from ..recordings.recording import Floats
-from .options import add_design_option
+from .options import add_design_option, load_from
+from .pair_options import setting_title
 from .sweep import add_grid_options, grid_from
 
 if TYPE_CHECKING:
@@ -67,7 +68,7 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
 
     has_no_number = {
         'friction holds: not determined': (answers.regime == REGIME_CODES[Regime.HELD], '#e6e6e6'),
-        'slack, or below the weight': (
+        'slack, or the joint not seated': (
             (answers.regime == REGIME_CODES[Regime.SLACK]) | (answers.regime < 0),
             '#7f7f7f',
         ),
@@ -94,6 +95,7 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
         drawing.colorbar(mesh, label=quantity.label)
     for side, sign in (('s', 1.0), ('l', -1.0)):
         _name_stop(axes, answers, side, sign)
+    drawing.suptitle('\n'.join(setting_title(answers.design, load_from(options))), fontsize=10)
     axes.set_xlabel('tension of cable l, T_l [N]')
     axes.set_ylabel('tension of cable s, T_s [N]')
     if patches:

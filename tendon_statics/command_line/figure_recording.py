@@ -10,7 +10,7 @@ import numpy as np
 from ..physics import JointDesign, Regime
 from ..recordings.replay.estimates import INVALID, Replay
 from .figures import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION
-from .options import add_design_option, add_tension_stddev_option
+from .options import add_design_option, add_load_options, add_tension_stddev_option
 from .recording_options import (
     add_recording_options,
     report_damage,
@@ -43,6 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_recording_options(parser)
     add_design_option(parser)
     add_estimation_options(parser)
+    add_load_options(parser)
     add_tension_stddev_option(parser, default=None)
 
 

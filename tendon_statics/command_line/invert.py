@@ -6,7 +6,14 @@ import argparse
 import math
 
 from ..physics import tensions_for
-from .options import add_design_option, add_format_option, design_from, print_json
+from .options import (
+    add_design_option,
+    add_format_option,
+    add_load_options,
+    design_from,
+    load_from,
+    print_json,
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -14,11 +21,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     angle = parser.add_mutually_exclusive_group(required=True)
     angle.add_argument('--bend-angle', type=float, metavar='RAD', help='bend angle in rad')
     angle.add_argument('--bend-angle-deg', type=float, metavar='DEG', help='bend angle in degrees')
-    load = parser.add_mutually_exclusive_group(required=True)
-    load.add_argument('--pressure', type=float, metavar='PA', help='joint pressure in Pa')
-    load.add_argument(
+    target = parser.add_mutually_exclusive_group(required=True)
+    target.add_argument('--pressure', type=float, metavar='PA', help='joint pressure in Pa')
+    target.add_argument(
         '--total-tension', type=float, metavar='N', help='sum of the two tensions in N'
     )
+    add_load_options(parser)
     add_design_option(parser)
     add_format_option(parser)
 
@@ -33,6 +41,7 @@ def run(options: argparse.Namespace) -> None:
         angle,
         pressure=options.pressure,
         total_tension=options.total_tension,
+        load=load_from(options),
     )
     if options.format == 'json':
         print_json(tensions._asdict())

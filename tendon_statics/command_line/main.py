@@ -4,22 +4,15 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import signal
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
-from typing import NoReturn
+from typing import Any, NoReturn
 
-from ..files.output_file import OutputError
-from ..physics.errors import (
-    BendAngleError,
-    CalibrationError,
-    DesignError,
-    TensionError,
-    UnreachableError,
-)
-from ..recordings.errors import RecordingError
+from ..physics.errors import TendonStaticsError
 from .options import UsageError
 
 VERBS = {
@@ -39,22 +32,15 @@ VERBS = {
 """Verb → what it does; the module of the same name has the rest."""
 
 
-ERRORS = (
-    UsageError,
-    DesignError,
-    TensionError,
-    BendAngleError,
-    UnreachableError,
-    CalibrationError,
-    RecordingError,
-    OutputError,
-    OSError,
-)
-"""What is the user's to mend"""
-
-
 class _Parser(argparse.ArgumentParser):
-    """A parser whose errors are one line."""
+    """A parser whose errors are one line, and which takes -1e-3 for a number."""
+
+    def __init__(self, *args: Any, **more: Any) -> None:
+        super().__init__(*args, **more)
+        # Python before 3.14 knows -0.001 only, and takes -1e-3 for an option.
+        self._negative_number_matcher = re.compile(
+            r'-(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$', re.IGNORECASE
+        )
 
     def error(self, message: str) -> NoReturn:
         raise UsageError(f'{message} (see {self.prog} --help)')
@@ -102,7 +88,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     except KeyboardInterrupt as interruption:
         return 128 + (interruption.args or (signal.SIGINT,))[0]
-    except ERRORS as error:
+    except (TendonStaticsError, OSError) as error:
         print(f'tendon-statics: {error}', file=sys.stderr)
         if isinstance(error, OSError):
             _drop_output()

@@ -8,13 +8,13 @@ import math
 
 from ..files.design_file import default_design_path
 from ..files.unit_file import Unit, load_unit
-from ..physics import JointDesign
+from ..physics import UPRIGHT, JointDesign, Load, TendonStaticsError
 
 TENSION_STDDEV = 0.01
 """N"""
 
 
-class UsageError(Exception):
+class UsageError(TendonStaticsError):
     """The command line asks for what cannot be; the text is for the user."""
 
 
@@ -83,6 +83,73 @@ def tension_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
     if options.tension_stddev is not None:
         return float(options.tension_stddev)
     return float(unit.get('tension_stddev') or TENSION_STDDEV)
+
+
+def add_load_options(parser: argparse.ArgumentParser) -> None:
+    """Add what acts on the unit beside its cables: tilt or gravity, and a force at the tip."""
+    group = parser.add_argument_group(
+        'load', 'beside the cables, in the joint frame; default: upright, nothing at the tip'
+    )
+    direction = group.add_mutually_exclusive_group()
+    direction.add_argument(
+        '--base-tilt-deg',
+        type=_finite,
+        metavar='DEG',
+        help='tilt of the base in the plane of bending in degrees, positive towards cable s',
+    )
+    direction.add_argument(
+        '--gravity-direction',
+        type=_finite,
+        nargs=3,
+        metavar=('X', 'Y', 'Z'),
+        help='or the direction of gravity, of any length: X towards cable s, Z along the unit at '
+        'zero bend; what Y has is carried by the guides and left out',
+    )
+    group.add_argument(
+        '--tip-force',
+        type=_finite,
+        nargs=2,
+        metavar=('X', 'Z'),
+        help='force on the unit in N, fixed in the joint frame',
+    )
+    group.add_argument(
+        '--tip-distance',
+        type=_finite,
+        metavar='M',
+        help="where it acts along the unit's axis, in m from the centre of the ball",
+    )
+
+
+def load_from(options: argparse.Namespace) -> Load:
+    """Return the load that the options name.
+
+    Raises
+    ------
+    UsageError
+        If only one of tip force and distance is given.
+    LoadError
+        If the direction of gravity is of length zero, or a number too large.
+    """
+    force, distance = options.tip_force, options.tip_distance
+    if (force is None) != (distance is None):
+        given, missing = ('force', 'distance') if distance is None else ('distance', 'force')
+        raise UsageError(f'--tip-{given} is given without --tip-{missing}; the two go together')
+    tip = ((0.0, 0.0), 0.0) if force is None else (tuple(force), distance)
+    if options.gravity_direction is not None:
+        return Load(tuple(options.gravity_direction), *tip)
+    if options.base_tilt_deg is None:
+        return Load(UPRIGHT.gravity_direction, *tip)
+    return Load.tilted(math.radians(options.base_tilt_deg), *tip)
+
+
+def _finite(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f'it is {text!r}, allowed is a finite number')
+    return value
 
 
 def _deviation(text: str) -> float:

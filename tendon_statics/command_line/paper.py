@@ -39,6 +39,25 @@ def _published(design: JointDesign) -> str:
     )
 
 
+def _bisection(design: JointDesign) -> str:
+    found = paper.bisect(design, paper.TENSION_L, paper.TENSION_S)
+    answer = solve(design, paper.TENSION_L, paper.TENSION_S)
+    if found is None or answer.bend_angle is None:
+        return 'With this design Eq. (4) has no change of sign from 0 to the stop.'
+    angle, halvings = found
+    return markdown_table(
+        ('way to the root', 'steps:', 'bend angle θ [rad]:'),
+        [
+            ("plain bisection to 1e-10 rad, the paper's", str(halvings), f'{angle:.10f}'),
+            (
+                '`solve`: Newton steps, the same bracket at the end',
+                str(answer.iterations),
+                f'{answer.bend_angle:.10f}',
+            ),
+        ],
+    )
+
+
 def _band(design: JointDesign) -> str:
     """Tensions of cable s at which the regime changes, that of cable l being the paper's."""
     published = solve(design, paper.TENSION_L, paper.TENSION_S)
@@ -136,6 +155,7 @@ def _signs(design: JointDesign) -> str:
 
 SECTIONS = {
     'published': _published,
+    'bisection': _bisection,
     'band': _band,
     'errata': _errata,
     'identified': _identified,

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ..files.unit_file import Unit
 from ..files.unit_parameters import TENSION_SOURCES
+from ..physics import Load
 from ..recordings.hints import hints
 from ..recordings.reading.clock import CLOCKS
 from ..recordings.reading.load import ENDINGS, load_recording
@@ -21,10 +22,13 @@ from ..recordings.reading.topics import (
 )
 from ..recordings.recording import Recording
 from ..recordings.scaling import of_unit
-from .options import unit_from
+from .options import UsageError, load_from, unit_from
 from .progress import with_progress
 
 DEFAULTS = BagTopics()
+
+TIP_WRENCH = '/tip_wrench'
+"""Where the estimator listens"""
 
 
 def add_recording_options(parser: argparse.ArgumentParser) -> None:
@@ -85,6 +89,19 @@ def _add_bag_options(bag: argparse._ArgumentGroup) -> None:
         '--pressure-topic',
         metavar='TOPIC',
         help='Float64 or Float32; default: /measured_pressure, if it is there',
+    )
+    bag.add_argument(
+        '--base-topic',
+        metavar='TOPIC',
+        help='of the base: Imu, PoseStamped or QuaternionStamped; or its tilt in rad, Float64 or '
+        "Float32; default: what the design file's gravity_source says, or /measured_base_tilt, if "
+        'it is there',
+    )
+    bag.add_argument(
+        '--tip-wrench-topic',
+        metavar='TOPIC',
+        help='of the force at the tip, in the joint frame: WrenchStamped or Wrench; default: '
+        '/tip_wrench if the design file says tip_wrench, else none',
     )
     bag.add_argument('--state-topic', metavar='TOPIC', help='String: slipping or held')
     bag.add_argument(
@@ -156,6 +173,11 @@ def unit_and_recording(options: argparse.Namespace) -> tuple[Unit, Recording]:
         bend_angle=options.bend_angle_topic,
         joint_name=options.joint_name,
         pressure=options.pressure_topic,
+        base=options.base_topic,
+        gravity_source=unit.get('gravity_source') or DEFAULTS.gravity_source,
+        imu_mounting=tuple(unit.get('imu_mounting') or DEFAULTS.imu_mounting),
+        tip_wrench=options.tip_wrench_topic
+        or (TIP_WRENCH if unit.get('tip_wrench') is True else None),
         state=options.state_topic,
         max_skew=options.max_skew,
         tension_skew=unit.get('max_skew'),
@@ -171,6 +193,42 @@ def unit_and_recording(options: argparse.Namespace) -> tuple[Unit, Recording]:
     )
     recording = load_recording(options.data, topics, table, progress=with_progress)
     return unit, of_unit(recording, unit)
+
+
+def recorded_load(options: argparse.Namespace, unit: Unit, recording: Recording) -> Load:
+    """Return what acts beside the cables as far as it was not recorded.
+
+    Raises
+    ------
+    UsageError
+        If something was recorded and is said too, or it is not said where a recorded tip force
+        acts.
+    LoadError
+        As `load_from` does.
+    """
+    if recording.base_tilt is not None and (
+        options.base_tilt_deg is not None or options.gravity_direction is not None
+    ):
+        raise UsageError(
+            f'{recording.name} has the tilt of the base in it; --base-tilt-deg and '
+            '--gravity-direction are for recordings that do not'
+        )
+    if recording.tip_force_x is None and recording.tip_force_z is None:
+        return load_from(options)
+    if options.tip_force is not None:
+        raise UsageError(
+            f'{recording.name} has the force at the tip in it; --tip-force is for recordings that '
+            'do not'
+        )
+    distance = options.tip_distance
+    distance = unit.get('tip_distance') if distance is None else distance
+    if distance is None:
+        raise UsageError(
+            f"{recording.name} has a force at the tip in it: say where it acts along the unit's "
+            'axis by --tip-distance, in m, or by tip_distance in the design file'
+        )
+    said = {**vars(options), 'tip_force': (0.0, 0.0), 'tip_distance': float(distance)}
+    return load_from(argparse.Namespace(**said))
 
 
 def report_damage(recording: Recording) -> int:

@@ -15,9 +15,19 @@ from ..recordings.recording import Recording
 from ..recordings.replay.bag_output import write_bag
 from ..recordings.replay.estimates import Replay, replay
 from ..recordings.replay.table_output import write_table
-from .options import add_design_option, add_tension_stddev_option, tension_stddev_from
+from .options import (
+    add_design_option,
+    add_load_options,
+    add_tension_stddev_option,
+    tension_stddev_from,
+)
 from .progress import with_progress
-from .recording_options import add_recording_options, report_damage, unit_and_recording
+from .recording_options import (
+    add_recording_options,
+    recorded_load,
+    report_damage,
+    unit_and_recording,
+)
 from .replay_text import replay_facts
 from .tables import fact_lines
 
@@ -27,6 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_recording_options(parser)
     add_design_option(parser)
     add_estimation_options(parser)
+    add_load_options(parser)
     add_tension_stddev_option(parser, default=None)
     parser.add_argument(
         '--output',
@@ -81,13 +92,17 @@ def run(options: argparse.Namespace) -> int:
 
 
 def replay_from(
-    options: argparse.Namespace, unit: Unit, design: JointDesign, recording: Recording
+    options: argparse.Namespace,
+    unit: Unit,
+    design: JointDesign,
+    recording: Recording,
 ) -> Replay:
     """Replay a recording as the options and the unit's file ask for, with a design of it."""
     return replay(
         design,
         recording,
         options.estimation or unit.get('estimation') or ESTIMATIONS[0],
+        load=recorded_load(options, unit, recording),
         initial_bend_angle=initial_bend_angle_from(options, unit),
         tension_stddev=tension_stddev_from(options, unit),
         progress=with_progress,

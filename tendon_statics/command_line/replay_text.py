@@ -10,6 +10,7 @@ from ..physics import JointDesign
 from ..recordings.hints import hints
 from ..recordings.recording import Recording
 from ..recordings.replay.estimates import VALID, Replay
+from .load_text import setting_facts
 from .tables import Facts
 
 
@@ -18,6 +19,7 @@ def replay_facts(replay: Replay, design: JointDesign) -> Facts:
     return [
         *_recording_facts(replay.recording),
         *reading_facts(replay.recording, design),
+        *setting_facts(design, replay.load),
         ('estimation', replay.estimation),
         ('regimes', _regimes(replay)),
         *_invalid_facts(replay),

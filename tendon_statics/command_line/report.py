@@ -26,7 +26,7 @@ from .calibration_text import (
 from .figure_calibration import draw_calibration
 from .figure_recording import draw_replay
 from .figures import svg_of
-from .options import add_design_option
+from .options import add_design_option, add_load_options
 from .recording_options import add_recording_options, report_damage, unit_and_recording
 from .replay import add_estimation_options, replay_from
 from .replay_text import replay_facts
@@ -68,6 +68,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_recording_options(parser)
     add_design_option(parser)
     add_estimation_options(parser)
+    add_load_options(parser)
     add_calibration_options(parser)
     parser.add_argument(
         '--output', type=Path, required=True, metavar='FILE.html', help='the report'

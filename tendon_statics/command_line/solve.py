@@ -6,14 +6,18 @@ import argparse
 import math
 
 from ..physics import Equilibrium, Regime, solve
+from .load_text import DEFAULT_LAW, load_dict, setting_facts
 from .options import (
     add_design_option,
     add_format_option,
+    add_load_options,
     add_tension_options,
     add_tension_stddev_option,
     design_from,
+    load_from,
     print_json,
 )
+from .tables import fact_lines
 
 MEANING = {
     Regime.EQUILIBRIUM: 'on the verge of slipping at this angle',
@@ -26,6 +30,7 @@ MEANING = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the verb takes."""
     add_tension_options(parser)
+    add_load_options(parser)
     add_design_option(parser)
     add_format_option(parser)
     add_tension_stddev_option(parser)
@@ -33,15 +38,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Solve and print."""
-    equilibrium = solve(design_from(options), options.tension_l, options.tension_s)
+    design, load = design_from(options), load_from(options)
+    equilibrium = solve(design, options.tension_l, options.tension_s, load)
     if options.format == 'json':
-        print_json(equilibrium.as_dict())
+        print_json(
+            {
+                'contact_law': design.contact_law,
+                'load': load_dict(load),
+                **equilibrium.as_dict(),
+                'bend_angle_derivatives': equilibrium.bend_angle_derivatives,
+                'pressure_derivatives': equilibrium.pressure_derivatives,
+            }
+        )
     else:
         print('\n'.join(_text(equilibrium, options.tension_stddev)))
 
 
 def _text(equilibrium: Equilibrium, tension_stddev: float) -> list[str]:
     lines = [f'regime        {equilibrium.regime}: {MEANING[equilibrium.regime]}']
+    if settings := setting_facts(equilibrium.design, equilibrium.load):
+        lines.append(fact_lines(settings))
     if equilibrium.bend_angle is None or equilibrium.pressure is None:
         return lines
     lines += [
@@ -75,14 +91,24 @@ def _text(equilibrium: Equilibrium, tension_stddev: float) -> list[str]:
             f'              by tension_s {math.degrees(gradient.tension_s):+.1f} deg/N, '
             f'{pressure_gradient.tension_s:+.1f} Pa/N',
         ]
-    if equilibrium.force_remainder:
+    derivatives, of_pressure = (
+        equilibrium.bend_angle_derivatives,
+        equilibrium.pressure_derivatives,
+    )
+    if derivatives and of_pressure:
         lines.append(
-            f'remainder     {equilibrium.force_remainder.x:+.3f} N in X_G, '
-            f'{equilibrium.force_remainder.z:+.3f} N in Z_G of the two force equations'
+            f'              by base tilt {derivatives["base_tilt"]:+.2f} deg/deg, '
+            f'{round(math.radians(of_pressure["base_tilt"]), 1) + 0.0:+.1f} Pa/deg'
         )
+    if equilibrium.force_remainder:
+        x, z = (round(part, 3) + 0.0 for part in equilibrium.force_remainder)
+        lines.append(f'remainder     {x:+.3f} N in X, {z:+.3f} N in Z of the two force equations')
+        if equilibrium.design.contact_law == DEFAULT_LAW:
+            lines.append(
+                "              (the paper's law only has their squares add up; others meet both)"
+            )
     if not equilibrium.branch_consistent:
         lines.append(
-            'warning       the forces do not ask for the root that was taken '
-            '(mu N sin(beta + theta) <= W)'
+            'warning       the force equations ask for another contact force than the one taken'
         )
     return lines

@@ -13,7 +13,7 @@ from ..files.output_file import OutputError
 from ..physics import EquilibriumBatch
 from ..physics.batch import solve_batch
 from ..recordings.replay.table_output import write_arrays, write_table
-from .options import UsageError, add_design_option, design_from
+from .options import UsageError, add_design_option, add_load_options, design_from, load_from
 from .progress import with_progress
 from .tables import markdown_table
 
@@ -35,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_grid_options(parser: argparse.ArgumentParser) -> None:
-    """Add the tensions at which to look."""
+    """Add the tensions at which to look, and the load."""
     for cable in ('l', 's'):
         parser.add_argument(
             f'--tension-{cable}-range',
@@ -51,6 +51,7 @@ def add_grid_options(parser: argparse.ArgumentParser) -> None:
         default=101,
         help='along each of the two, with both ends; default: %(default)s',
     )
+    add_load_options(parser)
 
 
 def grid_from(options: argparse.Namespace) -> EquilibriumBatch:
@@ -65,7 +66,9 @@ def grid_from(options: argparse.Namespace) -> EquilibriumBatch:
                 f'--{name.replace("_", "-")} is {low:g} to {high:g} N, which must rise from 0 on'
             )
         axes.append(np.linspace(low, high, options.points))
-    return solve_batch(design_from(options), axes[0][:, None], axes[1][None, :])
+    return solve_batch(
+        design_from(options), axes[0][:, None], axes[1][None, :], load_from(options)
+    )
 
 
 def run(options: argparse.Namespace) -> None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..recordings.replay.estimates import replay
 from ..recordings.replay.table_output import write_csv
-from .options import add_design_option
+from .options import add_design_option, add_load_options, load_from
 from .progress import with_progress
 from .recording_options import (
     add_recording_options,
@@ -25,6 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the verb takes."""
     add_recording_options(parser)
     add_initial_bend_angle_option(parser)
+    add_load_options(parser)
     add_design_option(parser)
 
 
@@ -35,6 +36,7 @@ def run(options: argparse.Namespace) -> int:
         unit.design,
         recording,
         'tracking',
+        load=load_from(options),
         initial_bend_angle=initial_bend_angle_from(options, unit),
         progress=with_progress,
     )

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 
+from ..physics.errors import TendonStaticsError
 
-class SettingError(ValueError):
+
+class SettingError(TendonStaticsError, ValueError):
     """A parameter has a value that is not allowed; the text is for the user."""
 
 

@@ -9,8 +9,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from ..physics.errors import TendonStaticsError
 
-class OutputError(ValueError):
+
+class OutputError(TendonStaticsError, ValueError):
     """An output that cannot be written."""
 
 

@@ -7,13 +7,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 
+from ..physics.errors import TendonStaticsError
 from .yaml_file import YamlFileError, read_yaml
 
 ESTIMATOR = 'estimator'
 """Name of the node that computes with a unit, in whatever namespace"""
 
 
-class ParameterFileError(ValueError):
+class ParameterFileError(TendonStaticsError, ValueError):
     """A file that is no parameter file, or none for the node; the text does not name it."""
 
 

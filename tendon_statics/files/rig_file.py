@@ -10,7 +10,7 @@ from typing import Any
 
 from ..joint_names import JointNameError, JointNames, check_joint_name, load_joint_names
 from ..physics.design import JointDesign
-from ..physics.errors import DesignError
+from ..physics.errors import DesignError, TendonStaticsError
 from ..recordings.errors import RecordingError
 from ..recordings.reading.load import load_recording
 from .design_file import load_design
@@ -18,7 +18,7 @@ from .unit_parameters import TENSION_SOURCES
 from .yaml_file import YamlFileError, read_yaml
 
 
-class RigFileError(ValueError):
+class RigFileError(TendonStaticsError, ValueError):
     """A file that describes no rig.
 
     Attributes

@@ -6,8 +6,10 @@ import re
 from pathlib import Path
 from typing import Any, ClassVar
 
+from ..physics.errors import TendonStaticsError
 
-class YamlFileError(ValueError):
+
+class YamlFileError(TendonStaticsError, ValueError):
     """A file is not valid YAML."""
 
 

@@ -13,8 +13,10 @@ from importlib import import_module
 from types import FrameType
 from typing import Any
 
+from ..physics.errors import TendonStaticsError
 
-class StartError(Exception):
+
+class StartError(TendonStaticsError):
     """A node cannot start; the text is for the user."""
 
 

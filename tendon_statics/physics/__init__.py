@@ -17,6 +17,7 @@ from .errors import (
     CalibrationError,
     DesignError,
     LoadError,
+    TendonStaticsError,
     TensionError,
     UnreachableError,
 )
@@ -31,8 +32,7 @@ from .tracker import StickSlipTracker
 
 if TYPE_CHECKING:
     from .batch import EquilibriumBatch, solve_batch
-    from .calibration import calibrate
-    from .calibration_result import Calibration
+    from .calibration import Calibration, calibrate
     from .filter import FilterState, StickSlipFilter
 
 __all__ = [
@@ -56,6 +56,7 @@ __all__ = [
     'Regime',
     'StickSlipFilter',
     'StickSlipTracker',
+    'TendonStaticsError',
     'TensionError',
     'TensionGradient',
     'Tensions',
@@ -74,7 +75,7 @@ __all__ = [
 
 
 _NEEDING_NUMPY = {
-    'Calibration': '.calibration_result',
+    'Calibration': '.calibration',
     'EquilibriumBatch': '.batch',
     'FilterState': '.filter',
     'StickSlipFilter': '.filter',

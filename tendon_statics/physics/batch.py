@@ -76,6 +76,16 @@ class EquilibriumBatch:
         return self.normal_force / self.design.contact_area
 
     @property
+    def slip_margin(self) -> Floats:
+        """M / K at the angle: ±1 at the limit of friction, beyond that only against the stop."""
+        margins = np.empty(self.bend_angle.shape)
+        flat = margins.reshape(-1)
+        with np.errstate(all='ignore'):
+            for part, slip, point in self._points():
+                flat[part] = slip.side * point.moment / point.capacity
+        return margins
+
+    @property
     def forces(self) -> ContactForces:
         """The forces on the joint surface in N."""
         return self._contact.forces

@@ -1,9 +1,17 @@
-"""What can be wrong with the input of the physics."""
+"""The base class of the package's errors, and what can be wrong with the input of the physics."""
 
 from __future__ import annotations
 
 
-class DesignError(ValueError):
+class TendonStaticsError(Exception):
+    """What the package raises itself: one line for a person, who can mend it.
+
+    Every error of the package derives from it, and from `ValueError` too where a value is at
+    fault. A `TypeError` is a call that no input makes right.
+    """
+
+
+class DesignError(TendonStaticsError, ValueError):
     """A joint design that cannot be used.
 
     Attributes
@@ -17,21 +25,21 @@ class DesignError(ValueError):
         self.key = key
 
 
-class LoadError(ValueError):
+class LoadError(TendonStaticsError, ValueError):
     """A dead load that the model does not take."""
 
 
-class TensionError(ValueError):
+class TensionError(TendonStaticsError, ValueError):
     """A pair of cable tensions that the model does not take."""
 
 
-class BendAngleError(ValueError):
+class BendAngleError(TendonStaticsError, ValueError):
     """A bend angle that the unit cannot have."""
 
 
-class UnreachableError(ValueError):
+class UnreachableError(TendonStaticsError, ValueError):
     """A bend angle and joint pressure that no pair of tensions gives."""
 
 
-class CalibrationError(ValueError):
+class CalibrationError(TendonStaticsError, ValueError):
     """Data or parameters from which no design can be fitted."""

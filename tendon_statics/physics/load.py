@@ -17,7 +17,7 @@ import numbers
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from .design import JointDesign
 from .errors import LoadError
@@ -93,6 +93,12 @@ class Load:
         x, _, z = self.gravity_direction
         return math.atan2(x, -z)
 
+    def mirrored(self) -> Load:
+        """Return the load of the mirror image, with the cables' sides swapped."""
+        x, y, z = self.gravity_direction
+        force_x, force_z = self.tip_force
+        return Load((-x, y, z), (-force_x, force_z), self.tip_distance)
+
     def on(self, design: JointDesign) -> DeadLoad:
         """Return the forces and moments that it means for one unit."""
         weight, lever = design.weight, design.com_distance
@@ -108,26 +114,31 @@ class Load:
 
 
 class DeadLoad(NamedTuple):
-    """Resultant and moment of the dead load of one joint, in the joint frame."""
+    """Resultant and moment of the dead load of one joint, in the joint frame.
 
-    force_x: float
+    Floats, or arrays of one shape.
+    """
+
+    force_x: Any
     """P_x in N"""
-    force_z: float
+    force_z: Any
     """P_z in N"""
-    moment_x: float
+    moment_x: Any
     """Q_x in N·m"""
-    moment_z: float
+    moment_z: Any
     """Q_z in N·m"""
 
     @property
-    def size(self) -> float:
+    def size(self) -> Any:
         """|P| in N."""
-        return math.hypot(self.force_x, self.force_z)
+        if isinstance(self.force_x, float):
+            return math.hypot(self.force_x, self.force_z)
+        return abs(self.force_x + 1j * self.force_z)
 
     def largest_pull(self, stop: float) -> float:
         """Largest −P_a in N, with which it pulls the unit off the ball, within ±`stop` in rad."""
         farthest = min(abs(math.atan2(self.force_x, -self.force_z)) + stop, math.pi)
-        return max(0.0, -self.size * math.cos(farthest))
+        return max(0.0, -float(self.size) * math.cos(farthest))
 
     def at(self, angle: float) -> tuple[float, float]:
         """P_a and P_t in N at a bend angle in rad: along the axis, on the ball; across, to s."""

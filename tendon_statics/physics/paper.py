@@ -1,4 +1,4 @@
-"""What the paper prints: its one published case, and Eq. (4) as it stands on the page."""
+"""What the paper prints: its published case, Eq. (4) as it stands on the page, its bisection."""
 
 from __future__ import annotations
 
@@ -18,6 +18,9 @@ BEND_ANGLE = math.radians(17.14)
 """Published result, rad"""
 PRESSURE = 405.6
 """Published result, Pa"""
+
+TOLERANCE = 1e-10
+"""Width of the bracket at which its bisection ends, rad"""
 
 
 def identify_mass_and_offset(design: JointDesign) -> JointDesign:
@@ -90,6 +93,38 @@ def moment_pressure(
     friction_square = arc.friction_x**2 + arc.friction_z**2
     resisting_arm = design.friction_coefficient * design.ball_radius
     return (cables + weight) / (resisting_arm * math.sqrt(friction_square) * design.contact_width)
+
+
+def bisect(design: JointDesign, tension_l: float, tension_s: float) -> tuple[float, int] | None:
+    """Solve the corrected Eq. (4) as the paper does, by plain bisection from 0 to the stop.
+
+    `solve` answers the same from the same equation, in a few Newton steps.
+
+    Returns
+    -------
+    (float, int) or None
+        θ in rad, the middle of the last bracket, and the halvings that it took; None where the two
+        sides do not change order over the range.
+    """
+
+    def is_above(angle: float) -> bool:
+        left = moment_pressure(design, tension_l, tension_s, angle)
+        right = force_pressure(design, tension_l, tension_s, angle)
+        return right is not None and left > right
+
+    low, high = 0.0, design.max_bend_angle
+    above_at_low = is_above(low)
+    if above_at_low is is_above(high):
+        return None
+    halvings = 0
+    while high - low > TOLERANCE:
+        middle = 0.5 * (low + high)
+        if is_above(middle) is above_at_low:
+            low = middle
+        else:
+            high = middle
+        halvings += 1
+    return 0.5 * (low + high), halvings
 
 
 def equilibrium_band(design: JointDesign) -> tuple[float, float]:

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from .design import JointDesign
+from .design_gradients import Derivatives, answer_derivatives
 from .forces import Contact, ContactForces, ForceRemainder, contact_at
 from .gradients import (
     ByCable,
@@ -181,6 +182,19 @@ class Equilibrium(_Fields):
         area = self.design.contact_area
         return finite(of_sides(slip.side, ByCable(behind / area, ahead / area)))
 
+    @property
+    def bend_angle_derivatives(self) -> Derivatives | None:
+        """∂θ/∂x in rad per SI unit, for the tilt of the base and each number of the design.
+
+        Of `solve`; None also where they are infinite. At the stop only the stop moves the angle.
+        """
+        return None if self._derivatives is None else self._derivatives[0]
+
+    @property
+    def pressure_derivatives(self) -> Derivatives | None:
+        """∂p/∂x in Pa per SI unit, likewise."""
+        return None if self._derivatives is None else self._derivatives[1]
+
     def bend_angle_stddev(self, tension_stddev: float) -> float | None:
         """Return the standard deviation of the angle in rad, to first order, None if not known.
 
@@ -253,6 +267,19 @@ class Equilibrium(_Fields):
         if point.slope == 0.0:
             return None
         return angle_by_tensions(self._slip, point, self.design.relative_lever)
+
+    @cached_property
+    def _derivatives(self) -> tuple[Derivatives, Derivatives] | None:
+        """By tilt and design. A tracked unit has been brought here by tensions of the past."""
+        if self.is_tracked or self._point is None:
+            return None
+        return answer_derivatives(
+            self.design,
+            self.load,
+            Tensions(self.tension_l, self.tension_s),
+            *(self._slip, self._point),
+            at_stop=self.regime is Regime.DRIVEN_TO_STOP,
+        )
 
 
 _REPORTED = (

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from ..physics.errors import TendonStaticsError
 
-class RecordingError(ValueError):
+
+class RecordingError(TendonStaticsError, ValueError):
     """A file that holds no recording, or not the one asked for."""
 
 

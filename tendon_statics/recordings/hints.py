@@ -27,6 +27,7 @@ def hints(recording: Recording, design: JointDesign) -> list[str]:
         hint
         for hint in (
             _of_angle(recording, design),
+            _of_tilt(recording),
             _of_tensions(recording, design),
             _of_time(recording),
         )
@@ -52,6 +53,17 @@ def _of_angle(recording: Recording, design: JointDesign) -> str:
             '--units bend_angle=deg'
         )
     return f'{text}: the design may have too small a max_bend_angle, or the angles a wrong zero'
+
+
+def _of_tilt(recording: Recording) -> str:
+    for name in ('base_tilt', 'base_roll'):
+        tilts = getattr(recording, name)
+        if tilts is not None and (abs(tilts[np.isfinite(tilts)]) > 2.0 * np.pi).any():
+            return (
+                f'{name} is beyond a full turn: if it is in degrees, the column has to be named '
+                f'{name} [deg], or say --units {name}=deg'
+            )
+    return ''
 
 
 def _of_tensions(recording: Recording, design: JointDesign) -> str:

@@ -7,6 +7,9 @@ from ..physics import Calibration, design_parameters
 FACTOR = 10.0
 """By which a fitted value may differ from the start, which is a drawing or a weighing"""
 
+AT_END = 1e-6
+"""Share of its range within which a value is at the end of it"""
+
 MOST_FRICTION = 3.0
 """Above which no dry pair of materials of a joint is"""
 
@@ -26,7 +29,10 @@ def objections(calibration: Calibration) -> list[str]:
         parameter = ranges[fitted.name]
         value, start = fitted.value, fitted.start
         said = f'{fitted.name} = {value:.4g} {parameter.unit}'.rstrip()
-        if any(
+        # The range that was searched may end before that of the parameter, as the weight below
+        # the tensions; then a warning says so.
+        width = parameter.maximum - parameter.minimum
+        if min(value - parameter.minimum, parameter.maximum - value) < AT_END * width or any(
             warning.startswith(f'{fitted.name} is at the end of its range')
             for warning in calibration.warnings
         ):

@@ -9,11 +9,16 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..physics import Load
+from ..physics.sample_loads import SampleLoads
 from .errors import RecordingError, one_line
 
 Floats = npt.NDArray[np.float64]
 
-QUANTITIES = ('time', 'tension_l', 'tension_s', 'bend_angle', 'pressure')
+OF_LOAD = ('base_tilt', 'base_roll', 'tip_force_x', 'tip_force_z')
+"""What may have been measured of the load"""
+
+QUANTITIES = ('time', 'tension_l', 'tension_s', 'bend_angle', 'pressure', *OF_LOAD)
 """What a recording has numbers of; all but the tensions may be missing"""
 
 MOST_NAMED = 3
@@ -55,6 +60,14 @@ class Recording:
     """What was recorded of cables l and s, where a gain and bias made tensions of it"""
     notes: tuple[str, ...] = ()
     """What was recognised in the file, and what else is to be known of it, each in one line"""
+    base_tilt: Floats | None = None
+    """Measured γ in rad, the tilt of the base in the plane of bending towards cable s, likewise"""
+    base_roll: Floats | None = None
+    """Measured tilt of the base out of that plane in rad, beside `base_tilt`; None: it has none"""
+    tip_force_x: Floats | None = None
+    """Measured force at the tip in N in the joint frame, along X, likewise"""
+    tip_force_z: Floats | None = None
+    """Along Z"""
 
     def __post_init__(self) -> None:
         """Take whatever NumPy makes an array of.
@@ -86,6 +99,29 @@ class Recording:
         """T_l and T_s of every sample, as plain numbers in N."""
         return list(zip(self.tension_l.tolist(), self.tension_s.tolist(), strict=True))
 
+    def loads(self, load: Load) -> Load | list[Load]:
+        """Return what acts beside the cables: one load, or that of each sample.
+
+        Where it was not measured it is what it was before, as the node takes it, and at the
+        beginning what it came to be.
+
+        Parameters
+        ----------
+        load : Load
+            What of it was not recorded.
+        """
+        if not self.has_load:
+            return load
+        return SampleLoads.of(
+            load,
+            len(self),
+            **{
+                quantity: None if values is None else _last_known(values)
+                for quantity in OF_LOAD
+                for values in [getattr(self, quantity)]
+            },
+        ).loads()
+
     def part(self, which: npt.NDArray[np.bool_]) -> Recording:
         """Return a recording of some of the samples, given as an array of shape ``(n,)``."""
         chosen = np.flatnonzero(which)
@@ -97,17 +133,25 @@ class Recording:
             return None if values is None else values[chosen]
 
         readings = self.readings
+        more: dict[str, Any] = {
+            quantity: numbers(getattr(self, quantity))
+            for quantity in QUANTITIES
+            if quantity not in ('tension_l', 'tension_s')
+        }
         return dataclasses.replace(
             self,
             tension_l=self.tension_l[chosen],
             tension_s=self.tension_s[chosen],
-            bend_angle=numbers(self.bend_angle),
-            pressure=numbers(self.pressure),
-            time=numbers(self.time),
+            **more,
             state=texts(self.state),
             faults=texts(self.faults),
             readings=None if readings is None else (readings[0][chosen], readings[1][chosen]),
         )
+
+    @property
+    def has_load(self) -> bool:
+        """Whether anything of the load was measured."""
+        return any(getattr(self, quantity) is not None for quantity in OF_LOAD)
 
     @property
     def known_faults(self) -> Sequence[str]:
@@ -166,6 +210,16 @@ class Recording:
         if self.damage:
             raise RecordingError(f'{self.name}: {self.damage_summary}')
         return self
+
+
+def _last_known(values: Floats) -> Floats:
+    """Values with the last known one in place of every NaN, and the first one before it."""
+    known = np.flatnonzero(np.isfinite(values))
+    if not len(known):
+        return np.zeros(len(values))
+    places = np.searchsorted(known, np.arange(len(values)), side='right') - 1
+    filled: Floats = values[known[places.clip(0)]]
+    return filled
 
 
 def _check_length(name: str, values: Sequence[Any] | Floats, length: int) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ..physics.calibration.load_cells import AS_MEASURED, LoadCells
 from ..tensions.cable_scale import CableScale, scaled_arrays
 from ..tensions.reason import Reason
 from .recording import Floats, Recording
@@ -72,6 +73,14 @@ def usable(recording: Recording) -> Recording:
         tension_l=without(recording.tension_l),
         tension_s=without(recording.tension_s),
     )
+
+
+def corrected(recording: Recording, cells: LoadCells) -> Recording:
+    """Return the recording with the tensions that fitted load cells make of it."""
+    if cells == AS_MEASURED:
+        return recording
+    tension_l, tension_s = cells.tensions(recording.tension_l, recording.tension_s)
+    return dataclasses.replace(recording, tension_l=tension_l, tension_s=tension_s)
 
 
 def _said(unit: Unit, applies: bool) -> list[str]:

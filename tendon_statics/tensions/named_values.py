@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from .reason import Fault, Reason
 
@@ -24,12 +24,13 @@ class NamedValues(NamedTuple):
 
 
 def cable_values(
-    names: Sequence[str], values: Sequence[float], cables: Sequence[str], field: str = 'effort'
+    names: Sequence[str], values: Sequence[Any], cables: Sequence[str], field: str = 'effort'
 ) -> NamedValues:
     """Find the values of both cables, or of the one that the message is about.
 
     A message with other names only is foreign, whatever else is wrong with it. One that names a
-    cable has to have as many values as names: else it is not known whose they are.
+    cable has to name it once and to have as many values as names: else it is not known whose they
+    are.
 
     Parameters
     ----------
@@ -43,6 +44,9 @@ def cable_values(
     if len(values) != len(names):
         text = f'{len(names)} names came with {len(values)} {field}s, so it is not known whose'
         return NamedValues(fault=(Reason.WRONG_LENGTH, text))
+    for cable in cables:
+        if list(names).count(cable) > 1:
+            return NamedValues(fault=(Reason.WRONG_LENGTH, f'{cable} stands twice in the names'))
     held = dict(zip(names, values, strict=True))
     value_l, value_s = (held.get(cable) for cable in cables)
     return NamedValues(value_l, value_s)

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from statistics import fmean, stdev
 from typing import NamedTuple
 
+from ..physics.errors import TendonStaticsError
+
 FEWEST = 20
 """Readings of a cable of which a mean and its scatter are told"""
 
@@ -17,7 +19,7 @@ halves of them differ"""
 NAMES = ('cable_l', 'cable_s')
 
 
-class TareError(ValueError):
+class TareError(TendonStaticsError, ValueError):
     """Readings from which no bias can be told; the text is for the user."""
 
 

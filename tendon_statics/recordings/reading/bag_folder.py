@@ -52,6 +52,11 @@ def bag_folder(folder: Path) -> BagFolder:
         bag = _by_manifest(folder, manifest, there)
     elif len(there) > 1:
         bag.notes.append(f'there is no {METADATA}: its files are taken by the numbers in them')
+    if not bag.files and there:
+        raise RecordingError(
+            f'{bag.damage[0]}, and so is all else that it lists; to read one of '
+            f'{", ".join(path.name for path in there)} all the same, name the file itself'
+        )
     if not bag.files:
         why = f'; {bag.damage[0]}' if bag.damage else ''
         raise RecordingError(
@@ -69,6 +74,9 @@ def _by_manifest(folder: Path, manifest: Path, there: list[Path]) -> BagFolder:
     except (YamlFileError, KeyError, TypeError, AttributeError) as error:
         why = str(error) if isinstance(error, YamlFileError) else 'it is not that of a bag'
         text = f'{METADATA}: {why}; the files are taken by the numbers in them'
+        return BagFolder(there, damage=[text])
+    if not names:  # as of a recorder that did not end well
+        text = f'{METADATA} lists no files; they are taken by the numbers in them'
         return BagFolder(there, damage=[text])
     bag = BagFolder([], counts)
     for name in names:

@@ -11,6 +11,12 @@ UNKNOWN_TYPE = 'message of unknown type'
 CDR, ROS1 = 'cdr', 'ros1'
 
 
+def type_name(name: str) -> str:
+    """Return a type's name as ROS 2 writes it: ROS 1 leaves out what kind of interface it is."""
+    package, _, last = name.partition('/')
+    return f'{package}/msg/{last}' if last and '/' not in last else name
+
+
 class Record(NamedTuple):
     """A message before it is decoded; of a damaged file the fields may hold anything."""
 

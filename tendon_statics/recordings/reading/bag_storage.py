@@ -11,7 +11,7 @@ from ..errors import RecordingError
 from ..libraries import needed
 from ..progress import Progress, unseen
 from .bag_folder import BAG_ENDINGS, METADATA, BagFolder, bag_folder
-from .bag_record import PURPOSE, ROS1, Record
+from .bag_record import CDR, PURPOSE, ROS1, Record
 from .compression import decompressed, decompressed_message
 from .mcap_file import mcap_records
 from .ros1_file import ros1_records
@@ -185,6 +185,8 @@ class _Decoder:
         if record.kind not in store.fielddefs:
             types = self._types(record)
             store.register({n: fields for n, fields in types.items() if n not in store.fielddefs})
+        if record.encoding not in (ROS1, CDR):
+            raise ValueError(f'encoded as {record.encoding}')
         if record.encoding == ROS1:
             return store.deserialize_ros1(data, record.kind)
         return store.deserialize_cdr(data, record.kind)

@@ -73,7 +73,10 @@ def find_tensions(bag: Messages, names: Sequence[str], topics: BagTopics) -> Ten
                 f'{len(names)} topic{"s" * (len(names) > 1)}: {", ".join(names)}'
             )
     hint = '; --tension-source array|joint_state says which are meant' if len(names) == 1 else ''
-    found = {name: messages_on(bag, name, kinds, hint) for name in names}
+    wanted = ''
+    if topics.tension_source is not None:
+        wanted = f', as the tension source is {topics.tension_source} (--tension-source)'
+    found = {name: messages_on(bag, name, kinds, hint, wanted) for name in names}
     for name, messages in found.items():
         if not messages:
             why = f'; {bag.damage[0]}' if bag.damage else ''

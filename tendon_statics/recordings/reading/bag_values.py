@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ...tensions.named_values import NamedValues, cable_values
@@ -40,9 +40,11 @@ Value = Callable[[Message], Any]
 
 
 def messages_on(
-    bag: Messages, topic: str, kinds: tuple[str, ...], hint: str = ''
+    bag: Messages, topic: str, kinds: tuple[str, ...], hint: str = '', wanted: str = ''
 ) -> list[Message]:
     """Return the messages on a topic, all of one type that is among `kinds`.
+
+    The two texts are added to errors: what to do about several types, and why those are needed.
 
     Raises
     ------
@@ -57,6 +59,7 @@ def messages_on(
     if not readable:
         raise RecordingError(
             f'the topic {topic} is a {" and a ".join(there)}; {" or ".join(kinds)} is needed'
+            f'{wanted}'
         )
     if len(readable) > 1:
         listed = ', '.join(f'{kind} ({there[kind]} messages)' for kind in readable)
@@ -81,8 +84,7 @@ def cables_in(topics: BagTopics) -> Callable[[Message], NamedValues]:
         return cable_values(content.name, content.effort, topics.cable_names)
 
     def dynamic(content: Any) -> NamedValues:
-        names, values = interface_values(content, topics.interface)
-        return cable_values(names, values, topics.cable_names, topics.interface)
+        return _of_interface(content, topics.cable_names, topics.interface)
 
     def estimate(content: Any) -> NamedValues:
         return NamedValues(content.tension_l, content.tension_s)
@@ -96,15 +98,25 @@ def cables_in(topics: BagTopics) -> Callable[[Message], NamedValues]:
     return lambda message: by_kind[message.kind](message.content)
 
 
-def interface_values(content: Any, interface: str) -> tuple[list[str], list[float]]:
-    """Names of the joints in a ``DynamicJointState`` that have an interface, and its values."""
-    names, values = [], []
-    for name, of_joint in zip(content.joint_names, content.interface_values, strict=False):
-        held = dict(zip(of_joint.interface_names, of_joint.values, strict=False))
-        if interface in held:
-            names.append(name)
-            values.append(float(held[interface]))
-    return names, values
+def _of_interface(content: Any, cables: Sequence[str], interface: str) -> NamedValues:
+    """Values of one interface in a ``DynamicJointState``.
+
+    A joint that does not have it is as one that is not named.
+    """
+    of_joints = cable_values(content.joint_names, content.interface_values, cables, 'interface')
+    if of_joints.fault is not None:
+        return of_joints
+    found: list[float | None] = []
+    joints: tuple[Any, Any] = (of_joints.value_l, of_joints.value_s)
+    for of_joint in joints:
+        inner = NamedValues()
+        if of_joint is not None:
+            names, values = of_joint.interface_names, of_joint.values
+            inner = cable_values(names, values, (interface, interface), interface)
+        if inner.fault is not None:
+            return inner
+        found.append(inner.value_l)
+    return NamedValues(found[0], found[1])
 
 
 def one_cable(topics: BagTopics) -> Callable[[Message], float]:
@@ -133,10 +145,9 @@ def position_of(joint: str) -> Callable[[Message], float | None]:
         if message.kind in (NUMBER, NUMBER_32):
             return float(content.data)
         if message.kind == DYNAMIC:
-            names, values = interface_values(content, 'position')
+            found = _of_interface(content, (joint, joint), 'position')
         else:
-            names, values = content.name, content.position
-        found = cable_values(names, values, (joint, joint), 'position')
+            found = cable_values(content.name, content.position, (joint, joint), 'position')
         return math.nan if found.fault else found.value_l
 
     return value

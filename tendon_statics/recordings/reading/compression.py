@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, Any
@@ -19,7 +19,7 @@ ZSTD_MAGIC = b'\x28\xb5\x2f\xfd'
 LZ4_MAGIC = b'\x04\x22\x4d\x18'
 """What a message begins with that was compressed by itself; CDR never does"""
 
-BLOCK = 1 << 20
+BLOCK = 1 << 16
 """Bytes that are decompressed at once"""
 
 HEADER = 18
@@ -38,9 +38,9 @@ def decompressed(path: Path, damage: list[str]) -> Iterator[Path]:
     with tempfile.TemporaryDirectory(prefix='tendon-statics-') as folder:
         copy = Path(folder, path.stem)
         with path.open('rb') as file, copy.open('wb') as target:
-            stream, size = _stream(file, ENDINGS[path.suffix])
+            blocks, size = _content(file, ENDINGS[path.suffix])
             try:
-                for block in iter(lambda: stream.read(BLOCK), b''):
+                for block in blocks:
                     target.write(block)
             except Exception as error:  # each library has its own
                 if isinstance(error, OSError) and error.errno is not None:
@@ -65,8 +65,8 @@ def decompressed_message(data: Any) -> Any:
     return data
 
 
-def _stream(file: IO[bytes], kind: str) -> tuple[Any, int]:
-    """Return what reads the content, and its size in bytes if that is told, else 0."""
+def _content(file: IO[bytes], kind: str) -> tuple[Iterator[bytes], int]:
+    """Return a file's content in blocks, and its size in bytes if that is told, else 0."""
     if kind == 'zstd':
         (zstandard,) = needed('zstandard', purpose=PURPOSE)
         try:
@@ -74,6 +74,21 @@ def _stream(file: IO[bytes], kind: str) -> tuple[Any, int]:
         except zstandard.ZstdError:
             size = 0
         file.seek(0)
-        return zstandard.ZstdDecompressor().stream_reader(file, read_across_frames=True), size
+        reader = zstandard.ZstdDecompressor().stream_reader(file, read_across_frames=True)
+        return iter(lambda: reader.read(BLOCK), b''), size
     (frame,) = needed('lz4.frame', purpose=PURPOSE)
-    return frame.LZ4FrameFile(file), 0
+    return _lz4_blocks(file, frame.LZ4FrameDecompressor), 0
+
+
+def _lz4_blocks(file: IO[bytes], new_decompressor: Callable[[], Any]) -> Iterator[bytes]:
+    """Decompress frame after frame, down to the last block of one that was cut."""
+    decompressor = None
+    while data := file.read(BLOCK):
+        while data:
+            decompressor = decompressor or new_decompressor()
+            yield decompressor.decompress(data)
+            data = b''
+            if decompressor.eof:
+                data, decompressor = decompressor.unused_data or b'', None
+    if decompressor is not None:
+        raise EOFError('it ends within a frame')

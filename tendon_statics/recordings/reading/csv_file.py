@@ -47,6 +47,10 @@ def load_csv(
     return rows.recording(path.name, (*notes, *form.notes))
 
 
+class _NoNumberError(ValueError):
+    """A field that has no number where there should be one."""
+
+
 class _Rows:
     """The rows of a table, one by one."""
 
@@ -72,9 +76,12 @@ class _Rows:
             time = self._time(fields)
             if len(fields) != len(titles):
                 raise ValueError(f'{len(fields)} fields')
-        except (ValueError, IndexError, csv.Error):
+        except (ValueError, IndexError, csv.Error) as error:
             place = f'line {number}, {_shown(line)}'
-            self._damage.append(f'{place}, is not a row of {self._form.separator.join(titles)}')
+            why = f': {error}' if isinstance(error, _NoNumberError) else ''
+            self._damage.append(
+                f'{place}, is not a row of {self._form.separator.join(titles)}{why}'
+            )
             return
         length = len(fields[-1])
         if not line.endswith(LINE_ENDS) and length < self._shortest:
@@ -144,13 +151,16 @@ class _Rows:
     def _plain(self, text: str) -> float:
         if text.casefold() in MISSING:
             return math.nan
-        if '_' in text:
-            raise ValueError(text)  # Python takes 1_5 for 15.
+        number = text
         if self._form.decimal == ',':
-            if '.' in text:
-                raise ValueError(text)  # a point between thousands, perhaps
-            text = text.replace(',', '.')
-        return float(text)
+            # A point is one between thousands, perhaps.
+            number = text.replace('.', '_').replace(',', '.')
+        try:
+            if '_' in number:
+                raise ValueError  # Python takes 1_5 for 15.
+            return float(number)
+        except ValueError:
+            raise _NoNumberError(f'{_shown(text.encode())} is no number') from None
 
 
 def _shown(line: bytes) -> str:

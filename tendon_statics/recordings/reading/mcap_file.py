@@ -12,7 +12,7 @@ from typing import IO, Any
 
 from ..errors import RecordingError
 from ..libraries import needed
-from .bag_record import PURPOSE, UNKNOWN_TYPE, Record
+from .bag_record import PURPOSE, UNKNOWN_TYPE, Record, type_name
 
 MAGIC = b'\x89MCAP0\r\n'
 """What a file begins and ends with"""
@@ -159,9 +159,12 @@ class _McapFile:
                 self._unknown += 1
                 continue
             schema = self._schemas.get(channel.schema_id)
-            kind = schema.name if schema else UNKNOWN_TYPE
+            kind = type_name(schema.name) if schema else UNKNOWN_TYPE
             definition = schema.data.decode(errors='replace') if schema else ''
-            yield Record(channel.topic, kind, definition, part.log_time, part.data)
+            yield Record(
+                *(channel.topic, kind, definition, part.log_time, part.data),
+                channel.message_encoding,
+            )
 
     def _define(self, entry: Any) -> None:
         """Take what a record says of topics, unless that is known: the summary comes first."""
@@ -170,7 +173,8 @@ class _McapFile:
         elif isinstance(entry, self._kinds.Channel):
             self._channels.setdefault(entry.id, entry)
             schema = self._schemas.get(entry.schema_id)
-            self._types.setdefault(entry.topic, schema.name if schema else UNKNOWN_TYPE)
+            kind = type_name(schema.name) if schema else UNKNOWN_TYPE
+            self._types.setdefault(entry.topic, kind)
 
     def _passed_over(self, start: int, error: Exception) -> None:
         reason = str(error) or type(error).__name__

@@ -13,6 +13,9 @@ from .units import UNITS
 SEPARATORS = {'comma': ',', 'semicolon': ';', 'tab': '\t', 'space': ' ', 'bar': '|'}
 """Name of a separator, as an option has it → character; one space stands for any number"""
 
+PAIRS = {'tension': ('tension_l', 'tension_s'), 'tip_force': ('tip_force_x', 'tip_force_z')}
+"""Name for two quantities of one unit"""
+
 NAMED = (*QUANTITIES, 'state')
 """What a column may be"""
 
@@ -28,7 +31,8 @@ class TableOptions:
     columns: Mapping[str, str] = dataclasses.field(default_factory=dict)
     """Quantity → title of its column, without a unit in brackets"""
     units: Mapping[str, str] = dataclasses.field(default_factory=dict)
-    """Quantity → unit of its column; ``tension`` stands for both tensions"""
+    """Quantity → unit of its column; ``tension`` stands for both tensions, ``tip_force`` for both
+    components"""
     skip_rows: int = 0
     """Lines before the one with the titles"""
     encoding: str | None = None
@@ -59,12 +63,12 @@ class TableOptions:
         for quantity in self.columns:
             _check_quantity(quantity, NAMED)
         units = dict(self.units)
-        of_both = units.pop('tension', None)
-        if of_both is not None:
-            units = {'tension_l': of_both, 'tension_s': of_both} | units
+        for both, quantities in PAIRS.items():
+            if both in units:
+                units = dict.fromkeys(quantities, units.pop(both)) | units
         object.__setattr__(self, 'units', units)
         for quantity, unit in units.items():
-            _check_quantity(quantity, (*UNITS, 'tension'))
+            _check_quantity(quantity, (*UNITS, *PAIRS))
             unit_factor(quantity, unit)
         if self.encoding is not None:
             try:

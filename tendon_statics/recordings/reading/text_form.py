@@ -90,14 +90,14 @@ def _titles(
     before = [line for line in comments if not rows or line[0] < rows[0][0]]
     candidates += [(line, 0) for line in before[-1:]]
     separators = [options.separator] if options.separator else [*SEPARATORS.values()]
-    failures: list[RecordingError] = []
+    failures: list[tuple[int, RecordingError]] = []
     for (number, line), taken in candidates:
         for separator in separators:
             titles = _header(number, line, separator, as_comment=not taken)
             try:
                 find_columns(titles, options)
             except RecordingError as error:
-                failures.append(error)
+                failures.append((sum(map(_is_title, titles)), error))
             else:
                 return separator, titles, taken
     if not failures:
@@ -105,10 +105,20 @@ def _titles(
     for number, line in rows[1:LOOKED_AT]:
         if any(_has_tensions(number, line, separator, options) for separator in separators):
             raise RecordingError(
-                f'{failures[0]}; line {number} has them: --skip-rows {number - 1}'
+                f'{failures[0][1]}; line {number} has them: --skip-rows {number - 1}'
             )
-    # What is wrong with the tensions that were found, rather than that there are none.
-    raise next((error for error in failures if 'no column' not in str(error)), failures[0])
+    # What is wrong with the tensions that were found, rather than that there are none; else what
+    # there is by the separator that makes most titles.
+    of_found = [error for _, error in failures if 'no column' not in str(error)]
+    raise of_found[0] if of_found else max(failures, key=lambda failure: failure[0])[1]
+
+
+def _is_title(text: str) -> bool:
+    try:
+        float(text.replace(',', '.'))
+    except ValueError:
+        return bool(text)
+    return False
 
 
 def _has_tensions(number: int, line: bytes, separator: str, options: TableOptions) -> bool:

@@ -38,6 +38,16 @@ class BagTopics:
     """Name of the joint in that ``JointState``; None if it has just one"""
     pressure: str | None = None
     """Topic of a number, Pa; None: ``/measured_pressure`` if the bag has it"""
+    base: str | None = None
+    """Topic of an IMU or a pose of the base, or of its tilt in rad; None: ``/imu`` or
+    ``/base_pose`` as `gravity_source` says, else ``/measured_base_tilt`` if the bag has it"""
+    gravity_source: str = 'fixed'
+    """Which topic the estimator takes: ``imu``, ``pose`` or none"""
+    imu_mounting: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Roll, pitch and yaw in rad of the IMU in the joint frame"""
+    tip_wrench: str | None = None
+    """Topic of wrenches with the force at the tip, in the joint frame; None: there is none, or
+    that which a replay has written"""
     state: str | None = None
     """Topic of ``std_msgs/String``: ``slipping`` or ``held``"""
     max_skew: float = 0.02
@@ -63,7 +73,7 @@ class BagTopics:
         if self.tensions is not None:
             _check_names('topic of tensions', self.tensions, (1, 2))
         _check_names('cable', self.cable_names, (2,))
-        for name in (self.bend_angle, self.pressure, self.state):
+        for name in (self.bend_angle, self.pressure, self.state, self.base, self.tip_wrench):
             if name is not None:
                 _check_names('topic', (name,), (1,))
         if self.force_component not in FORCE_COMPONENTS:

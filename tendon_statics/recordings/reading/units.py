@@ -7,23 +7,28 @@ import re
 
 from ..errors import RecordingError
 
-_TENSION = {'N': 1.0, 'mN': 1e-3, 'kN': 1e3, 'gf': 9.80665e-3, 'kgf': 9.80665}
+_FORCE = {'N': 1.0, 'mN': 1e-3, 'kN': 1e3, 'gf': 9.80665e-3, 'kgf': 9.80665}
+_ANGLE = {'rad': 1.0, 'mrad': 1e-3, 'deg': math.radians(1.0), '°': math.radians(1.0)}
 UNITS = {
     'time': {'s': 1.0, 'ms': 1e-3, 'us': 1e-6, 'ns': 1e-9},
-    'tension_l': _TENSION,
-    'tension_s': _TENSION,
-    'bend_angle': {'rad': 1.0, 'mrad': 1e-3, 'deg': math.radians(1.0), '°': math.radians(1.0)},
+    'tension_l': _FORCE,
+    'tension_s': _FORCE,
+    'bend_angle': _ANGLE,
     'pressure': {'Pa': 1.0, 'kPa': 1e3, 'MPa': 1e6},
+    'base_tilt': _ANGLE,
+    'base_roll': _ANGLE,
+    'tip_force_x': _FORCE,
+    'tip_force_z': _FORCE,
 }
 """Quantity → unit → what one of it is in SI, which comes first and needs no mention"""
 
-_FOREIGN_TENSION = 'newton newtons g kg lb lbs lbf oz ozf'
+_FOREIGN_FORCE = 'newton newtons g kg lb lbs lbf oz ozf'
+_FOREIGN_ANGLE = 'degree degrees radian radians milliradians'
 _FOREIGN_UNITS = {
     'time': 'sec secs second seconds msec millis milliseconds usec micros microseconds nsec nanos '
     'nanoseconds minutes hours',
-    'tension_l': _FOREIGN_TENSION,
-    'tension_s': _FOREIGN_TENSION,
-    'bend_angle': 'degree degrees radian radians milliradians',
+    **dict.fromkeys(('tension_l', 'tension_s', 'tip_force_x', 'tip_force_z'), _FOREIGN_FORCE),
+    **dict.fromkeys(('bend_angle', 'base_tilt', 'base_roll'), _FOREIGN_ANGLE),
     'pressure': 'hPa pascal pascals kilopascals megapascals bar mbar psi atm torr mmHg',
 }
 """Quantity → other names of units, which are not read, but are meant for one where they stand"""

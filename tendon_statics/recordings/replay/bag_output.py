@@ -12,7 +12,7 @@ import numpy as np
 from ...files.output_file import OutputError, output_file
 from ..libraries import needed
 from ..progress import Progress, unseen
-from ..reading.bag import DEFAULT_BEND_ANGLE, DEFAULT_PRESSURE
+from ..reading.bag_beside import DEFAULT_TOPICS
 from ..reading.bag_values import ARRAY, NUMBER, TEXT
 from ..recording import Floats, Recording
 from .estimates import Replay
@@ -101,10 +101,8 @@ def _times(path: Path, recording: Recording) -> list[int]:
 
 def _recorded(recording: Recording) -> list[_Series]:
     series = [_Series('/tensions', ARRAY, recording.tensions())]
-    for topic, values in (
-        (DEFAULT_BEND_ANGLE, recording.bend_angle),
-        (DEFAULT_PRESSURE, recording.pressure),
-    ):
+    for quantity, topic in DEFAULT_TOPICS.items():
+        values = getattr(recording, quantity)
         if values is not None:
             series.append(_Series(topic, NUMBER, values.tolist()))
     if recording.state is not None:

@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics import Equilibrium, JointDesign, StickSlipTracker, TensionError
+from ...physics import (
+    UPRIGHT,
+    Equilibrium,
+    JointDesign,
+    Load,
+    StickSlipTracker,
+    TensionError,
+)
 from ...physics.admissible import check_bend_angle
 from ...physics.batch import solve_batch
 from ...physics.tensions import MAX_TENSION
@@ -17,7 +25,7 @@ from ...tensions.cable_scale import CableScale, scaled_arrays
 from ...tensions.reason import Reason
 from ..progress import Progress, unseen
 from ..reading.columns import READINGS
-from ..recording import Floats, Recording
+from ..recording import OF_LOAD, Floats, Recording
 from ..scaling import usable, worse_reasons
 
 CHUNK = 20_000
@@ -33,6 +41,8 @@ class Replay(NamedTuple):
     """What the model says of each sample; arrays of shape ``(n,)``, NaN where not determined."""
 
     recording: Recording
+    load: Load
+    """What of that which acts beside the cables was not recorded"""
     estimation: str
     regime: NDArray[np.str_]
     bend_angle: Floats
@@ -69,6 +79,7 @@ class Replay(NamedTuple):
                 *zip(READINGS, recorded.readings or (None, None), strict=True),
                 ('bend_angle', recorded.bend_angle),
                 ('pressure', recorded.pressure),
+                *((name, getattr(recorded, name)) for name in OF_LOAD),
                 ('state', None if recorded.state is None else np.array(recorded.state)),
             )
             if values is not None
@@ -90,6 +101,7 @@ def replay(
     recording: Recording,
     estimation: str = 'equilibrium',
     *,
+    load: Load = UPRIGHT,
     initial_bend_angle: float = 0.0,
     tension_stddev: float = 0.01,
     progress: Progress = unseen,
@@ -101,6 +113,8 @@ def replay(
     estimation : str
         ``equilibrium``: each sample by itself, as `solve` does; ``tracking``: with the memory of a
         `StickSlipTracker`.
+    load : Load
+        What acts beside the cables; what was recorded of it comes first.
     initial_bend_angle : float
         Where a tracked unit is at first, in rad.
     tension_stddev : float
@@ -125,13 +139,14 @@ def replay(
     faults = _faults(recording)
     given = recording
     recording = usable(dataclasses.replace(recording, faults=faults))
+    loads = recording.loads(load)
     starts = progress(range(0, len(recording), CHUNK), 'solving')
     if estimation == 'equilibrium':
-        parts = [_solved(design, recording, start, tension_stddev) for start in starts]
+        parts = [_solved(design, recording, loads, start, tension_stddev) for start in starts]
     else:
         recording.in_order()
         tracker = StickSlipTracker(design, initial_bend_angle)
-        parts = [_tracked(tracker, recording, start, tension_stddev) for start in starts]
+        parts = [_tracked(tracker, recording, loads, start, tension_stddev) for start in starts]
     regime, numbers, assured = zip(*parts, strict=True)
     angle, angle_stddev, pressure, pressure_stddev, margin = np.concatenate(numbers, axis=1)
     regimes = np.concatenate(regime)
@@ -141,6 +156,7 @@ def replay(
     ]
     return Replay(
         given,
+        load,
         estimation,
         regimes,
         angle,
@@ -167,32 +183,44 @@ _Part = tuple[NDArray[np.str_], Floats, NDArray[np.bool_]]
 """Regimes, the five numbers of each sample in rows, and whether the angle is assured"""
 
 
-def _solved(design: JointDesign, recording: Recording, start: int, tension_stddev: float) -> _Part:
+def _solved(
+    design: JointDesign,
+    recording: Recording,
+    loads: Load | list[Load],
+    start: int,
+    tension_stddev: float,
+) -> _Part:
     part = slice(start, start + CHUNK)
-    answers = solve_batch(design, recording.tension_l[part], recording.tension_s[part])
-    side = np.where(answers.bend_angle < 0.0, -1.0, 1.0)
+    of_part = loads if isinstance(loads, Load) else loads[part]
+    answers = solve_batch(design, recording.tension_l[part], recording.tension_s[part], of_part)
     numbers = np.stack(
         [
             answers.bend_angle,
             answers.bend_angle_stddev(tension_stddev),
             answers.pressure,
             answers.pressure_stddev(tension_stddev),
-            side * (1.0 + answers.residual / answers.normal_force),
+            answers.slip_margin,
         ]
     )
-    return answers.regime_names, numbers, np.full(len(side), True)
+    return answers.regime_names, numbers, np.full(answers.regime.shape, True)
 
 
 def _tracked(
-    tracker: StickSlipTracker, recording: Recording, start: int, tension_stddev: float
+    tracker: StickSlipTracker,
+    recording: Recording,
+    loads: Load | list[Load],
+    start: int,
+    tension_stddev: float,
 ) -> _Part:
     regimes, rows, assured = [], [], []
     part = slice(start, start + CHUNK)
-    for tensions in zip(
+    pairs = zip(
         recording.tension_l[part].tolist(), recording.tension_s[part].tolist(), strict=True
-    ):
+    )
+    of_part = itertools.repeat(loads) if isinstance(loads, Load) else loads[part]
+    for tensions, load in zip(pairs, of_part, strict=False):
         try:
-            state = tracker.update(*tensions)
+            state = tracker.update(*tensions, load)
         except TensionError:
             regimes.append(INVALID)
             rows.append((math.nan,) * 5)

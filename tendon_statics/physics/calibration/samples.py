@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .array_roots import Floats
-from .calibration_result import HELD, SLIPPING
-from .design import JointDesign
-from .errors import CalibrationError
-from .slip_boundary import BoundaryDistance, Noise, boundary_distance
-from .tensions import MAX_TENSION
+from ..array_roots import Floats
+from ..design import JointDesign
+from ..errors import CalibrationError
+from ..load import UPRIGHT, Load
+from ..sample_loads import SampleLoads, seating_tension
+from ..tensions import MAX_TENSION
+from .boundary_distance import BoundaryDistance, Noise, boundary_distance
+from .measured import Samples
+from .parameters import Model
+from .result import HELD, SLIPPING
 
 AT_STOP = 3.0
 """Standard deviations of the angle within which a unit at rest is taken to be at its stop"""
@@ -27,41 +30,24 @@ HELD_CONFIDENCE = 0.99865
 three standard deviations to one side"""
 
 
-class Samples(Protocol):
-    """What `calibrate` fits to, such as a `Recording`; arrays of shape ``(n,)``."""
-
-    @property
-    def tension_l(self) -> ArrayLike:
-        """T_l in N."""
-
-    @property
-    def tension_s(self) -> ArrayLike:
-        """T_s in N."""
-
-    @property
-    def bend_angle(self) -> ArrayLike | None:
-        """θ in rad, NaN where it was not measured."""
-
-    @property
-    def pressure(self) -> ArrayLike | None:
-        """Measured p in Pa, likewise, or None."""
-
-    @property
-    def state(self) -> Sequence[str] | None:
-        """``slipping``, ``held`` or anything else; None: every sample is slipping."""
-
-    @property
-    def time(self) -> ArrayLike | None:
-        """In s; None: the samples do not follow each other in time."""
-
-
 class SortedSamples:
     """Samples as arrays, sorted by what they are used for.
+
+    Parameters
+    ----------
+    design : JointDesign
+        At which it is judged whether the joint is seated, and where the stop is.
+    load : Load
+        What of the load was not recorded.
+    others : sequence of JointDesign
+        Designs that have to take each sample too.
 
     Attributes
     ----------
     tension_l, tension_s, bend_angle, pressure : ndarray
         Shape ``(n,)``, NaN where there is none.
+    loads : SampleLoads
+        What acts beside the cables.
     roles : ndarray
         Of each sample, ``slipping``, ``held`` or why it is not used.
     slipping, held, with_pressure : ndarray
@@ -75,7 +61,14 @@ class SortedSamples:
         If it is not known which samples are slipping, or none of them can be used.
     """
 
-    def __init__(self, design: JointDesign, data: Samples, noise: Noise) -> None:
+    def __init__(
+        self,
+        design: JointDesign,
+        data: Samples,
+        noise: Noise,
+        load: Load = UPRIGHT,
+        others: Sequence[JointDesign] = (),
+    ) -> None:
         if data.bend_angle is None:
             raise CalibrationError('there is no measured bend angle in the data')
         if data.state is None and data.time is not None:
@@ -93,9 +86,17 @@ class SortedSamples:
         count = len(self.tension_l)
         missing = np.full(count, math.nan)
         self.pressure = missing if data.pressure is None else as_floats(data.pressure)
+        self.loads = SampleLoads.of(
+            load,
+            count,
+            base_tilt=data.base_tilt,
+            base_roll=data.base_roll,
+            tip_force_x=data.tip_force_x,
+            tip_force_z=data.tip_force_z,
+        )
         self.states_are_known = data.state is not None
         state = [SLIPPING] * count if data.state is None else data.state
-        self.roles = self._roles(design, np.array(state, dtype=object))
+        self.roles = self._roles([design, *others], np.array(state, dtype=object))
         self.slipping = self.roles == SLIPPING
         self.held = self.roles == HELD
         self.with_pressure = self.slipping & np.isfinite(self.pressure)
@@ -111,21 +112,28 @@ class SortedSamples:
                 f'none of {count} samples is known to be slipping and can be used ({unused}){hint}'
             )
 
-    def _roles(self, design: JointDesign, state: NDArray[np.object_]) -> NDArray[np.str_]:
+    def _roles(
+        self, designs: Sequence[JointDesign], state: NDArray[np.object_]
+    ) -> NDArray[np.str_]:
         """State of every sample, or why it cannot be used."""
         self._rests = self._numbered_rests(state)
         angle = abs(_medians(self.bend_angle, self._rests))
         near = AT_STOP * self.noise.bend_angle
+        stop = designs[0].max_bend_angle
         total = self.tension_l + self.tension_s
+        loads = self.loads
+        seating = np.max([seating_tension(of, loads.on(of)) for of in designs], axis=0)
         weak = np.minimum(self.tension_l, self.tension_s)
         strong = np.maximum(self.tension_l, self.tension_s)
         # Later ones are stronger.
         reasons = {
             'of no known state': (state != SLIPPING) & (state != HELD),
-            'at the stop': angle >= design.max_bend_angle - near,
-            'beyond the stop': angle > design.max_bend_angle + near,
+            'at the stop': angle >= stop - near,
+            'beyond the stop': angle > stop + near,
             'without an angle': ~np.isfinite(self.bend_angle),
-            'below the weight': ~(total > design.weight),
+            'below the weight': ~(total > seating),
+            'without a base tilt': ~np.isfinite(loads.gravity_x + loads.gravity_z),
+            'without a tip force': ~np.isfinite(loads.force_x + loads.force_z),
             'slack': weak == 0.0,
             'of invalid tensions': ~((weak >= 0.0) & (strong <= MAX_TENSION)),
         }
@@ -153,7 +161,9 @@ class SortedSamples:
         A copied row, or a reading that was not renewed, is no measurement of its own.
         """
         indices = np.flatnonzero(of)
-        rows = np.stack([self.tension_l, self.tension_s, self.bend_angle, self.pressure])
+        rows = np.stack(
+            [self.tension_l, self.tension_s, self.bend_angle, self.pressure, *self.loads[:4]]
+        )
         _, first = np.unique(
             np.nan_to_num(rows[:, indices], nan=-math.inf), axis=1, return_index=True
         )
@@ -175,15 +185,17 @@ class SortedSamples:
             **{str(name): int(n) for name, n in zip(names, numbers, strict=True)},
         }
 
-    def distance(self, design: JointDesign, of: NDArray[np.bool_]) -> BoundaryDistance:
-        """Distance of some of the samples from the boundary of a design."""
+    def distance(self, model: Model, of: NDArray[np.bool_]) -> BoundaryDistance:
+        """Distance of some of the samples from the boundary of a model."""
         return boundary_distance(
-            design,
+            model.design,
             self.tension_l[of],
             self.tension_s[of],
             self.bend_angle[of],
             self.pressure[of],
             self.noise,
+            self.loads.part(of),
+            model.cells,
         )
 
     def hold_excesses(self, held_distances: Floats, scale: float) -> Floats:

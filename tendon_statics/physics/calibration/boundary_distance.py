@@ -1,16 +1,16 @@
 """How far measured samples lie from the boundary of slip, and how far noise alone puts them.
 
-A unit about to slip to the side σ = ±1 meets |M| / (μ r) = N_f, with the moment
-M = ΔT (r + δ) + W l sin θ of the sign σ and N_f at the angle σ θ; see `equations`. What a sample
-lacks of that is its excess e = |M| / (μ r) − N_f in N: 0 on the boundary, negative where friction
-holds. Angle and tensions both are measured, so both carry noise into e. To first order its
-variance is
+A unit about to slip to the side σ = ±1 meets |M| = K, with the moment M of Eq. (3), of the sign σ,
+and the capacity K of the contact law at the angle σ θ; see `slip`. What a sample lacks of that is
+its excess e = (|M| − K) / (μ r) in N: 0 on the boundary, negative where friction holds. Angle and
+tensions both are measured, so both carry noise into e. To first order its variance is
 
     σ_e² = σ_T² [(∂e/∂T_l)² + (∂e/∂T_s)²] + σ_θ² (∂e/∂θ)²,
 
 and e / σ_e is the distance of the sample from the boundary in units of its noise (Sampson's
-distance). A measured pressure p adds the equation q = p C w − N_f = 0, whose noise is correlated
-with that of e; what q says beyond e is q − (S_eq / S_ee) e with the variance S_qq − S_eq² / S_ee.
+distance). A measured pressure p adds the equation q = p A − N = 0 with the law's own contact force
+N at slip and area A = N / p, whose noise is correlated with that of e; what q says beyond e is
+q − (S_eq / S_ee) e with the variance S_qq − S_eq² / S_ee.
 """
 
 from __future__ import annotations
@@ -19,11 +19,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .array_roots import Floats
-from .design import JointDesign
-from .gradients import ByCable, normal_by_tensions, slip_by_tensions
-from .load import UPRIGHT, Load
-from .slip import Slip
+from ..array_roots import Floats
+from ..design import JointDesign
+from ..gradients import ByCable, normal_by_tensions, slip_by_tensions
+from ..load import UPRIGHT, Load
+from ..sample_loads import SampleLoads, seating_tension
+from ..slip import Slip
+from .load_cells import AS_MEASURED, LoadCells
 
 
 class Noise(NamedTuple):
@@ -57,22 +59,31 @@ def boundary_distance(
     bend_angle: Floats,
     pressure: Floats,
     noise: Noise,
-    load: Load = UPRIGHT,
+    load: Load | SampleLoads = UPRIGHT,
+    cells: LoadCells = AS_MEASURED,
 ) -> BoundaryDistance:
     """Measure the distance of samples from the boundary of slip.
 
     Parameters
     ----------
     tension_l, tension_s, bend_angle : ndarray
-        Samples in N and rad. Where the tensions do not exceed the weight the result is NaN.
+        Samples in N and rad, as measured. Where the tensions do not seat the joint the result is
+        NaN.
     pressure : ndarray
         In Pa; NaN where it is not measured.
+    noise : Noise
+        Of what is measured.
+    load : Load or SampleLoads
+        Of all samples, or of each.
+    cells : LoadCells
+        What makes tensions of the measured ones.
     """
     with np.errstate(all='ignore'):
+        tension_l, tension_s = cells.tensions(tension_l, tension_s)
         total = tension_l + tension_s
         dead = load.on(design)
-        excess_tension = np.where(total > dead.size, total - dead.size, np.nan)
-        slip = Slip.towards_s(design, dead, excess_tension, tension_l, tension_s)
+        total = np.where(total > seating_tension(design, dead), total, np.nan)
+        slip = Slip.towards_s(design, dead, total - dead.size, tension_l, tension_s)
         moment = slip.moment.at(bend_angle, np.cos(bend_angle), np.sin(bend_angle))
         slip = slip.facing(np.where(moment < 0.0, -1.0, 1.0))
         ahead = slip.side * bend_angle
@@ -91,15 +102,18 @@ def boundary_distance(
         force = normal_by_tensions(slip, point, slopes, lever, angle=still, at_limit=True)
         force_by_angle = total * (slopes.by_tilt + slopes.by_moment * point.by_tilt)
 
-        of_tension, of_angle = noise.tension**2, noise.bend_angle**2
-        variance = of_tension * (by_behind**2 + by_ahead**2) + of_angle * by_angle**2
+        towards_s = slip.side > 0.0
+        of_behind = (noise.tension * np.where(towards_s, cells.gain_l, cells.gain_s)) ** 2
+        of_ahead = (noise.tension * np.where(towards_s, cells.gain_s, cells.gain_l)) ** 2
+        of_angle = noise.bend_angle**2
+        variance = of_behind * by_behind**2 + of_ahead * by_ahead**2 + of_angle * by_angle**2
         standardised = excess / np.sqrt(variance)
 
-        # q = p C w − N: all its noise but that of p comes with the minus of N.
+        # q = p A − N: all its noise but that of p comes with the minus of N.
         area = design.contact_area
-        covariance = -of_tension * (force.behind * by_behind + force.ahead * by_ahead)
+        covariance = -of_behind * force.behind * by_behind - of_ahead * force.ahead * by_ahead
         covariance -= of_angle * force_by_angle * by_angle
-        pressure_variance = of_tension * (force.behind**2 + force.ahead**2)
+        pressure_variance = of_behind * force.behind**2 + of_ahead * force.ahead**2
         pressure_variance += of_angle * force_by_angle**2 + (noise.pressure * area) ** 2
         beyond = pressure * area - total * slopes.normal - covariance / variance * excess
         pressure_variance -= covariance**2 / variance

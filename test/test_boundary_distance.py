@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from slips import TRUTH, slipping_samples
 
 from tendon_statics.physics import slip_margin
-from tendon_statics.physics.slip_boundary import Noise, boundary_distance
+from tendon_statics.physics.calibration.boundary_distance import Noise, boundary_distance
 
 NOISE = Noise(0.01, math.radians(0.5), 8.0)
 

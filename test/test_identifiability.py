@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from tendon_statics.physics.identification import (
+from tendon_statics.physics.calibration.identifiability import (
     LOSS_VARIANCE,
     identify,
     scatter_scale,

@@ -6,14 +6,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .array_roots import Floats
-from .calibration_result import FittedParameter, ResidualStatistics
-from .design import DesignParameter
-from .identification import Identification
+from ..array_roots import Floats
+from ..design import DesignParameter
+from .identifiability import Identification
+from .result import FittedParameter, ResidualStatistics
 
 STRONG_CORRELATION = 0.99
 NEGLIGIBLE_DISTANCE = 0.01
 """Standard deviations; an equation that is met has less"""
+BIASES = ('bias_l', 'bias_s')
 SIGNIFICANT = 3.0
 """Standard deviations beyond which a scatter is not by chance"""
 
@@ -35,7 +36,7 @@ def calibration_warnings(
         The fitted parameters, each with the ends of the range that was searched, in SI.
     """
     found = []
-    known = len(fitted) - len(identification.null_directions)
+    known = identification.rank
     equations = residuals.degrees_of_freedom + known
     if equations < len(fitted):
         found.append(
@@ -54,7 +55,7 @@ def calibration_warnings(
             'so the model does not fit, or a state is wrong'
         )
     for direction in identification.null_directions:
-        found.append(_unidentified([value.name for value in fitted], direction))
+        found.append(_unidentified(fitted, direction))
     for (parameter, *ends), value in zip(ranges, fitted, strict=True):
         found += _doubts(parameter, ends, value)
     names = [value.name for value in fitted]
@@ -84,15 +85,35 @@ def calibration_warnings(
     return found
 
 
-def _unidentified(names: list[str], direction: Floats) -> str:
-    """Name a direction in which the data say nothing, in shares of the start values."""
-    parts = [(n, part) for n, part in zip(names, direction, strict=True) if abs(part) > 1e-3]
-    if len(parts) == 1:
-        return f'{parts[0][0]} is not identifiable: the data do not depend on it'
-    first = parts[0][1]
-    together = ', '.join(f'{name} by {part / first:+.3g} %' for name, part in parts)
+def other_solution(names: Sequence[str], values: Floats) -> str:
+    """Say that other values fit as well."""
+    listed = ', '.join(
+        f'{name} = {value:.4g}' for name, value in zip(names, values.tolist(), strict=True)
+    )
     return (
-        f'{", ".join(name for name, _ in parts[:-1])} and {parts[-1][0]} are not identifiable '
+        f'other values fit as well: {listed}; the law holds as much with either friction '
+        'coefficient, so one of them has to be ruled out in another way'
+    )
+
+
+def _unidentified(fitted: Sequence[FittedParameter], direction: Floats) -> str:
+    """Name a direction in which the data say nothing, in shares of the start values.
+
+    What starts at 0 has no share, and is named only.
+    """
+    parts = [
+        (value, part) for value, part in zip(fitted, direction, strict=True) if abs(part) > 1e-3
+    ]
+    names = [value.name for value, _ in parts]
+    if len(parts) == 1:
+        return f'{names[0]} is not identifiable: the data do not depend on it'
+    first = next((part for value, part in parts if value.start != 0.0), 1.0)
+    together = ', '.join(
+        f'{value.name} by {part / first:+.3g} %' if value.start != 0.0 else value.name
+        for value, part in parts
+    )
+    return (
+        f'{", ".join(names[:-1])} and {names[-1]} are not identifiable '
         f'apart from each other: changing {together} changes nothing in the data; fix one of them'
     )
 
@@ -111,6 +132,8 @@ def _doubts(
                 'the data ask for a value beyond it'
             )
     error = fitted.standard_error
+    if fitted.name in BIASES:  # of which 0 is a value like any other
+        return found
     if error > 0.5 * abs(fitted.value):
         found.append(
             f'{parameter.name} is hardly identifiable: its standard error is {error:.2g} '

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .array_roots import Floats
+from ..array_roots import Floats
 
 LOSS_SCALE = 1.5
 """c in standard deviations of the noise"""
@@ -33,6 +33,21 @@ class Identification(NamedTuple):
     """NaN likewise"""
     null_directions: Floats
     """Changes of the parameters that change no equation, one a row, the largest part being 1"""
+
+    @property
+    def rank(self) -> int:
+        """How many directions of the parameters the equations determine."""
+        return len(self.standard_errors) - len(self.null_directions)
+
+
+def loss(residuals: Floats) -> Floats:
+    """ρ of residuals in standard deviations.
+
+    It is −2 log of the density, but for a constant, of a noise that is Gaussian near 0 and has
+    exponential tails, so that sums of it may be compared as likelihoods.
+    """
+    losses: Floats = 2.0 * LOSS_SCALE**2 * (np.sqrt(1.0 + (residuals / LOSS_SCALE) ** 2) - 1.0)
+    return losses
 
 
 def score(residuals: Floats) -> Floats:

@@ -1,0 +1,1 @@
+"""What is known of one unit from its readings, without ROS, for node and replay alike."""

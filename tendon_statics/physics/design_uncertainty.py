@@ -1,0 +1,131 @@
+"""How well the parameters of a design are known: the covariance of some of them."""
+
+from __future__ import annotations
+
+import math
+import numbers
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from .design import design_parameters
+from .errors import DesignError
+
+ROUNDING = 1e-9
+"""Share of a variance by which a covariance may fail to be one"""
+
+
+@dataclass(frozen=True)
+class DesignUncertainty:
+    """Covariance of some of a design's parameters; the others are taken as exact.
+
+    Parameters
+    ----------
+    parameters : sequence of str
+        Names of k of `design_parameters`.
+    covariance : sequence of sequence of float
+        Shape ``(k, k)``, in the products of their SI units.
+
+    Raises
+    ------
+    DesignError
+        If a name is unknown or given twice, or the numbers are no covariance of so many
+        parameters.
+    """
+
+    parameters: tuple[str, ...]
+    covariance: tuple[tuple[float, ...], ...]
+
+    def __post_init__(self) -> None:
+        names = tuple(self.parameters)
+        known = [parameter.name for parameter in design_parameters()]
+        for name in names:
+            if name not in known:
+                raise DesignError(
+                    f'parameters has {name!r}, which is no design parameter; '
+                    f'there are {", ".join(known)}',
+                    key='parameters',
+                )
+            if names.count(name) > 1:
+                raise DesignError(f'parameters has {name} twice', key='parameters')
+        rows = tuple(tuple(row) for row in self.covariance)
+        if len(rows) != len(names) or any(len(row) != len(names) for row in rows):
+            raise DesignError(
+                f'covariance is not of {len(names)} rows of {len(names)} numbers, '
+                f'as {len(names)} parameters need',
+                key='covariance',
+            )
+        object.__setattr__(self, 'parameters', names)
+        object.__setattr__(self, 'covariance', tuple(map(_numbers, rows)))
+        self._check_definite()
+
+    @classmethod
+    def of_flat(cls, parameters: Sequence[str], covariance: Sequence[float]) -> DesignUncertainty:
+        """Return one from its covariance row by row, as a parameter file has it.
+
+        Raises
+        ------
+        DesignError
+            As the constructor does.
+        """
+        width = len(parameters)
+        if len(covariance) != width * width:
+            raise DesignError(
+                f'covariance has {len(covariance)} numbers; {width} parameters need '
+                f'{width * width}, row by row',
+                key='covariance',
+            )
+        rows = [covariance[width * row : width * (row + 1)] for row in range(width)]
+        return cls(tuple(parameters), tuple(map(tuple, rows)))
+
+    @property
+    def flat(self) -> list[float]:
+        """The covariance row by row."""
+        return [value for row in self.covariance for value in row]
+
+    def stddev(self, parameter: str) -> float:
+        """Standard deviation of a parameter in SI; 0 for one that is taken as exact."""
+        if parameter not in self.parameters:
+            return 0.0
+        place = self.parameters.index(parameter)
+        return math.sqrt(self.covariance[place][place])
+
+    def _check_definite(self) -> None:
+        """Check that it is symmetric and that no combination has a variance below 0.
+
+        Raises
+        ------
+        DesignError
+            If not.
+        """
+        import numpy as np  # Here, for who only solves should not wait for it.
+
+        covariance = np.array(self.covariance).reshape(len(self.parameters), -1)
+        scales = np.sqrt(np.clip(np.diag(covariance), 1e-300, None))
+        correlation = covariance / np.outer(scales, scales)
+        if not np.allclose(correlation, correlation.T, rtol=0.0, atol=ROUNDING):
+            raise DesignError('covariance is not symmetric', key='covariance')
+        least = np.linalg.eigvalsh(correlation).min(initial=0.0)
+        if least < -ROUNDING * len(correlation):
+            raise DesignError(
+                'covariance gives a combination of the parameters a variance below 0',
+                key='covariance',
+            )
+
+
+def _numbers(row: Sequence[object]) -> tuple[float, ...]:
+    """Return finite floats.
+
+    Raises
+    ------
+    DesignError
+        If one is not a finite number.
+    """
+    found = []
+    for value in row:
+        is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
+        if not is_number or not math.isfinite(value):  # type: ignore[arg-type]
+            raise DesignError(
+                f'covariance has {value!r}, a finite number is needed', key='covariance'
+            )
+        found.append(float(value))  # type: ignore[arg-type]
+    return tuple(found)

@@ -1,0 +1,218 @@
+"""A node that does with the estimator all that a test asks for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, ClassVar
+
+from builtin_interfaces.msg import Time
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from estimator_client import ARRAY, EstimatorClient
+from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState, GetState
+from rcl_interfaces.msg import SetParametersResult
+from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParametersAtomically
+from rclpy.context import Context
+from rclpy.parameter import Parameter, parameter_value_to_python
+from rclpy.qos import QoSProfile
+from ros_programs import Program, wait_for
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64, Header
+from std_srvs.srv import Trigger
+from tendon_statics_interfaces.srv import SolveInverse
+
+KINDS: dict[str | None, dict[str, type]] = {
+    None: {},
+    'array': ARRAY,
+    'joint_state': {'tensions': JointState},
+    'wrench_pair': {'tension_l': WrenchStamped, 'tension_s': WrenchStamped},
+}
+"""``tension_source`` → topics of tensions → types"""
+
+
+class Listener(EstimatorClient):
+    """Sends tensions of any kind, keeps diagnostics, calls all services, sets parameters.
+
+    Tensions are published as messages of the kind `tension_source`; with None they are left to a
+    driver.
+    """
+
+    SERVICES: ClassVar[dict[str, type]] = {
+        **EstimatorClient.SERVICES,
+        'solve_inverse': SolveInverse,
+        'solve_latest': Trigger,
+        'reset': Trigger,
+        'change_state': ChangeState,
+        'get_state': GetState,
+        'get_parameters': GetParameters,
+        'describe_parameters': DescribeParameters,
+        'set_parameters_atomically': SetParametersAtomically,
+    }
+
+    def __init__(self, context: Context, tension_source: str | None = 'array') -> None:
+        super().__init__(context, KINDS[tension_source])
+        self._tension_source = tension_source
+        self.diagnostics: list[DiagnosticStatus] = []
+        self.measured_bend_angle = self.create_publisher(Float64, 'measured_bend_angle', 10)
+        self.create_subscription(
+            DiagnosticArray,
+            '/diagnostics',
+            lambda message: self.diagnostics.extend(message.status),
+            QoSProfile(depth=5000),
+        )
+
+    @contextmanager
+    def estimator(self, *ros_arguments: str, greet: bool = True) -> Iterator[Program]:
+        """Run the installed estimator for the kind of tensions, connected in both directions."""
+        if self._tension_source not in (None, 'array'):
+            ros_arguments = ('-p', f'tension_source:={self._tension_source}', *ros_arguments)
+        with super().estimator(*ros_arguments, greet=greet) as program:
+            yield program
+
+    def count_kept(self) -> list[int]:
+        """How much came of results, by topic."""
+        return [len(store) for store in self._stores]
+
+    def hears_all(self) -> bool:
+        """Whether something came of results on every topic."""
+        return all(self._stores)
+
+    def has_all(self) -> bool:
+        """Whether all has come that belongs to the regimes that have; unless they are tracked."""
+        answered = [regime for regime in self.regimes if regime != 'invalid']
+        angles = sum(not math.isnan(estimate.bend_angle) for estimate in self.estimates)
+        pressures = sum(not math.isnan(estimate.pressure) for estimate in self.estimates)
+        of_angles = (self.bend_angles, self.slip_margins, self.unit_poses, self.joint_states)
+        return (
+            len(self.estimates) == len(answered)
+            and all(len(store) == angles for store in of_angles)
+            and len(self.joint_pressures) == pressures
+            and len(self.admissible_angles) == sum(regime != 'slack' for regime in answered)
+        )
+
+    def connect_to_services(self, program: Program) -> None:
+        """Wait until the estimator's services are there; it may be in any state."""
+
+        def found() -> bool:
+            assert program.process.poll() is None, program.output()
+            return all(client.service_is_ready() for client in self._clients_by_name.values())
+
+        wait_for('the services', found)
+
+    def change_state(self, transition: str) -> bool:
+        """Ask for a transition of the estimator's lifecycle by its label."""
+        before = self.estimator_state()
+        request = ChangeState.Request(transition=Transition(label=transition))
+        changed = self.call('change_state', request).success
+        # An answer may be lost after it was done; the second call then finds it done.
+        return changed or self.estimator_state() != before
+
+    def estimator_state(self) -> str:
+        """Return the state of the estimator's lifecycle."""
+        return self.call('get_state', GetState.Request()).current_state.label
+
+    def wait_for_status(
+        self, level: bytes, *parts: str, since: int | None = None
+    ) -> DiagnosticStatus:
+        """Wait for a status of a level whose message has these parts.
+
+        It is the first after the number `since` of those that have come; of those to come, if
+        that is not given.
+        """
+        begin = len(self.diagnostics) if since is None else since
+
+        def newest() -> list[DiagnosticStatus]:
+            return [
+                status
+                for status in self.diagnostics[begin:]
+                if status.level == level and all(part in status.message for part in parts)
+            ]
+
+        wait_for(f'a status with {parts}', lambda: bool(newest()))
+        return newest()[0]
+
+    def count(self, key: str) -> int:
+        """Return a count of the newest report on ``/diagnostics``."""
+        (value,) = [item.value for item in self.diagnostics[-1].values if item.key == key]
+        return int(value)
+
+    def wait_for_node(self, name: str, namespace: str = '/') -> None:
+        """Wait until a node is known by name, which is later than its topics are."""
+        wait_for(name, lambda: (name, namespace) in self.get_node_names_and_namespaces())
+
+    def publish(self, *data: float, stamp: Time | None = None) -> None:
+        """Publish one reading; unless it is an array, stamped with the present time or `stamp`."""
+        values = [float(value) for value in data]
+        if self._tension_source == 'array':
+            super().publish(*values)
+            return
+        header = Header(stamp=stamp or self.get_clock().now().to_msg())
+        if self._tension_source == 'joint_state':
+            names = ['cable_l', 'cable_s']
+            message = JointState(header=header, name=names[: len(values)], effort=values)
+            self.tension_publishers[0].publish(message)
+            return
+        for publisher, value in zip(self.tension_publishers, values, strict=True):
+            publisher.publish(WrenchStamped(header=header, wrench=_wrench(value)))
+
+    def publish_one(self, tension: float) -> None:
+        """Publish what the load cell of cable l says, and nothing of the other."""
+        header = Header(stamp=self.get_clock().now().to_msg())
+        message = WrenchStamped(header=header, wrench=_wrench(tension))
+        self.tension_publishers[0].publish(message)
+
+    def answer(self, *data: float) -> str:
+        """Publish one message and wait until its regime, the first thing said of it, is here."""
+        before = len(self.regimes)
+        self.publish(*data)
+        wait_for(f'an answer to {data}', lambda: len(self.regimes) > before)
+        return self.regimes[before]
+
+    def newest_estimate(self) -> Any:
+        """Wait for the estimate of the last answer, which is the last thing said of it."""
+
+        def come() -> bool:
+            return len(self.estimates) >= sum(regime != 'invalid' for regime in self.regimes)
+
+        wait_for('the estimate', come)
+        return self.estimates[-1]
+
+    def solve_inverse(self, bend_angle: float, **given: float) -> SolveInverse.Response:
+        """Call ``~/solve_inverse``."""
+        request = SolveInverse.Request(bend_angle=bend_angle, **given)
+        return self.call('solve_inverse', request)
+
+    def reset(self) -> Trigger.Response:
+        """Call ``~/reset``."""
+        return self.call('reset', Trigger.Request())
+
+    def solve_latest(self) -> Trigger.Response:
+        """Call ``~/solve_latest``."""
+        return self.call('solve_latest', Trigger.Request())
+
+    def set_estimator_parameters(self, **values: float | str | None) -> SetParametersResult:
+        """Set parameters of the estimator in one step; ``__`` stands for a dot, None deletes."""
+        parameters = [
+            Parameter(name.replace('__', '.'), value=value).to_parameter_msg()
+            for name, value in values.items()
+        ]
+        request = SetParametersAtomically.Request(parameters=parameters)
+        return self.call('set_parameters_atomically', request).result
+
+    def estimator_parameter(self, name: str) -> Any:
+        """Return the value of a parameter of the estimator."""
+        request = GetParameters.Request(names=[name])
+        answer = self.call('get_parameters', request)
+        return parameter_value_to_python(answer.values[0])
+
+    def describe_estimator_parameters(self, *names: str) -> list:
+        """Return descriptors of parameters of the estimator."""
+        request = DescribeParameters.Request(names=list(names))
+        return self.call('describe_parameters', request).descriptors
+
+
+def _wrench(tension: float) -> Wrench:
+    return Wrench(force=Vector3(z=tension))

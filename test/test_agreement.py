@@ -1,0 +1,69 @@
+"""Node and replay say the same of the same readings, with the same unit's file."""
+
+import math
+
+import numpy as np
+from programs import run
+from rcl_interfaces.msg import ParameterType, ParameterValue
+from ros_programs import wait_for
+
+from tendon_statics import default_design_path
+from tendon_statics.recordings.reading.load import load_recording
+
+GAINS = {
+    'cable_l.gain': 0.001,
+    'cable_s.gain': 0.002,
+    'cable_l.bias': -0.1,
+    'cable_s.max_tension': 5.0,
+}
+READINGS = [
+    *((1100.0, 1000.0), (1100.0, 750.0), (1100.0, 1400.0), (100.0, 1000.0), (2100.0, 300.0)),
+    *((1100.0, -5.0), (1100.0, 2501.0), (math.nan, 500.0), (50.0, 9000.0), (150.0, 20.0)),
+    *((math.inf, -1.0), (-9e9, 500.0), (3100.0, 2000.0)),
+]
+
+
+def double(value: float) -> ParameterValue:
+    return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
+
+
+def test_of_the_same_readings_node_and_replay_say_the_same(listener, tmp_path):
+    data, unit, output = (tmp_path / name for name in ('run.csv', 'unit.yaml', 'out.csv'))
+    rows = '\n'.join(f'{at_l},{at_s}' for at_l, at_s in READINGS)
+    data.write_text(f'tension_l,tension_s\n{rows}\n')
+    lines = ''.join(f'    {name}: {value}\n' for name, value in GAINS.items())
+    design = default_design_path().read_text()
+    unit.write_text(design.replace('    design:', f'{lines}    design:'))
+    done = run('replay', data, '--design', unit, '--output', output)
+    assert done.returncode == 0, done.stderr
+    rows = [line.split(',') for line in output.read_text().splitlines()]
+    replayed = dict(zip(rows[0], zip(*rows[1:], strict=True), strict=True))
+
+    with listener.estimator('--params-file', str(default_design_path())):
+        changed = {name.replace('.', '__'): double(value) for name, value in GAINS.items()}
+        assert listener.set_estimator_parameters(**changed).successful
+        reasons = [word for word in set(replayed['validity']) if word != 'valid']
+        wait_for('a report', lambda: listener.diagnostics)
+        regimes = [listener.answer(*pair) for pair in READINGS]
+        wait_for(
+            'all drops in a report',
+            lambda: (
+                sum(listener.count(f'dropped: {word}') for word in reasons)
+                == regimes.count('invalid')
+            ),
+        )
+        dropped = {word: listener.count(f'dropped: {word}') for word in reasons}
+        valid = [regime != 'invalid' for regime in regimes]
+        wait_for('all estimates', lambda: len(listener.estimates) == sum(valid))
+        estimates = list(listener.estimates)
+
+    assert regimes == list(replayed['regime'])
+    assert dropped == {word: replayed['validity'].count(word) for word in reasons}
+    assert set(reasons) == {'negative', 'implausible', 'not finite', 'below the weight'}
+    again = load_recording(output)
+    for name in ('tension_l', 'tension_s'):
+        of_node = [getattr(estimate, name) for estimate in estimates]
+        np.testing.assert_array_equal(of_node, getattr(again, name)[valid])
+    angles = [float(text or 'nan') for text in np.array(replayed['estimated_bend_angle'])[valid]]
+    of_node = [estimate.bend_angle for estimate in estimates]
+    np.testing.assert_allclose(of_node, angles, rtol=0.0, atol=1e-12)

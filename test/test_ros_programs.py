@@ -1,0 +1,50 @@
+"""What runs programs and nodes for the tests: it ends them in order, and says if they do not."""
+
+import signal
+import sys
+import threading
+import time
+
+import pytest
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from ros_programs import Program, spinning, wait_for
+
+
+def test_a_node_is_not_destroyed_while_its_thread_gathers_what_to_wait_for(monkeypatch):
+    """Then the thread would end by an exception."""
+    gathering, errors = threading.Event(), []
+    get_nodes = SingleThreadedExecutor.get_nodes
+
+    def get_slowly(executor):
+        gathering.set()
+        time.sleep(0.1)
+        return get_nodes(executor)
+
+    monkeypatch.setattr(SingleThreadedExecutor, 'get_nodes', get_slowly)
+    monkeypatch.setattr(threading, 'excepthook', errors.append)
+    with spinning(lambda context: Node('spun', context=context)):
+        assert gathering.wait(60.0)
+    assert not errors
+
+
+SLEEPER = (
+    'import signal, sys, time\n'
+    'def end_late(*_):\n'
+    '    time.sleep(1.0)\n'
+    '    sys.exit(3)\n'
+    'signal.signal(signal.SIGTERM, end_late)\n'
+    'print("ready", flush=True)\n'
+    'while True: time.sleep(0.1)\n'
+)
+
+
+def test_the_exit_code_of_a_program_is_returned_and_one_that_ends_too_late_is_an_error():
+    for within in (60.0, 0.5):
+        with Program.running_command([sys.executable, '-c', SLEEPER]) as program:
+            wait_for('the program', lambda p=program: 'ready' in p.output())
+            if within > 1.0:
+                assert program.end(signal.SIGTERM, within) == 3
+            else:
+                with pytest.raises(TimeoutError, match=r'to end, allowed are 0\.5 s'):
+                    program.end(signal.SIGTERM, within)
