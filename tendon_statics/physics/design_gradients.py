@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from .design import DesignParameter, JointDesign, design_parameters
@@ -68,22 +68,7 @@ def answer_derivatives(
     cosine, sine = point.turn
     ahead = math.atan2(sine, cosine)
     pressure_by_angle = _pressure_slope(slip, point) / design.contact_area
-
-    def at(other: JointDesign, other_load: Load) -> _Answer:
-        moved = taut_slip(other, tensions, other_load).facing(slip.side)
-        there = moved.at(ahead)
-        normal = moved.law.contact(moved.load, there.cosine, there.sine, there.capacity).normal
-        return _Answer(there.excess, moved.total * normal / other.contact_area)
-
-    def tilted(change: float) -> _Answer:
-        return at(design, _tilted(load, change))
-
-    changes: dict[str, tuple[_At, float]] = {BASE_TILT: (tilted, 1.0)}
-    for parameter in design_parameters():
-        changes[parameter.name] = (
-            _changing(design, load, parameter, at),
-            _scale(parameter, design, tensions),
-        )
+    changes = _changes(design, load, tensions, slip.side, ahead)
     angles, pressures = {}, {}
     for name, (answer, scale) in changes.items():
         by_excess, by_pressure = _difference(answer, STEP * scale)
@@ -96,6 +81,53 @@ def answer_derivatives(
     if not all(map(math.isfinite, (*angles.values(), *pressures.values()))):
         return None
     return angles, pressures
+
+
+def slip_by_design(
+    design: JointDesign,
+    load: Load,
+    tensions: Tensions,
+    slip: Slip,
+    ahead: float,
+    parameters: Sequence[str],
+) -> list[float]:
+    """Return ∂g/∂x, g in units of r T, at one angle ahead in rad by some parameters.
+
+    Parameters
+    ----------
+    slip : Slip
+        Towards the side of slip.
+    parameters : sequence of str
+        Names of `design_parameters`, or ``base_tilt``.
+    """
+    changes = _changes(design, load, tensions, slip.side, ahead)
+    found = []
+    for name in parameters:
+        answer, scale = changes[name]
+        found.append(_difference(answer, STEP * scale)[0])
+    return found
+
+
+def _changes(
+    design: JointDesign, load: Load, tensions: Tensions, side: float, ahead: float
+) -> dict[str, tuple[_At, float]]:
+    """The answer at one angle for a change of each parameter, and the parameter's scale."""
+
+    def at(other: JointDesign, other_load: Load) -> _Answer:
+        moved = taut_slip(other, tensions, other_load).facing(side)
+        there = moved.at(ahead)
+        normal = moved.law.contact(moved.load, there.cosine, there.sine, there.capacity).normal
+        return _Answer(there.excess, moved.total * normal / other.contact_area)
+
+    changes: dict[str, tuple[_At, float]] = {
+        BASE_TILT: (lambda change: at(design, _tilted(load, change)), 1.0)
+    }
+    for parameter in design_parameters():
+        changes[parameter.name] = (
+            _changing(design, load, parameter, at),
+            _scale(parameter, design, tensions),
+        )
+    return changes
 
 
 def _pressure_slope(slip: Slip, point: SlipPoint) -> float:

@@ -27,8 +27,10 @@ SIZES = np.array([1, 2, 3, 5, 9, 17, 33, 65, 129])
 REACH = int(SIZES[-1])
 """Samples before a place that its windows reach"""
 
-CONFIDENCE = 2.5
-"""Half-width of the confidence intervals, in standard errors"""
+CONFIDENCES = np.array([4.5, 4.5, 4.0, 3.5, 3.0, 2.75, 2.5, 2.5, 2.5])
+"""Half-widths of the confidence intervals of windows of `SIZES`, in standard errors. There are the
+more narrow windows in a second, so that chance has the more to offer: a rest is not to be torn
+apart by the one sample in thousands that lies far out"""
 
 _AROUND, _BEFORE, _AFTER, _LINE_BEFORE, _LINE_AFTER = range(5)
 
@@ -86,7 +88,7 @@ class Windows:
         self._tilt = offset / spread
         error = np.sqrt(1.0 / size + offset * offset / spread)
         self._error = np.where(there, error, np.inf)
-        self._half_width = CONFIDENCE * self._error
+        self._half_width = CONFIDENCES * self._error
         self._kinds, self._places = np.ogrid[0:5, 0 : len(ages)]
         self._place_numbers = np.arange(len(ages))
 
