@@ -27,7 +27,7 @@ SIZES = np.array([1, 2, 3, 5, 9, 17, 33, 65, 129])
 REACH = int(SIZES[-1])
 """Samples before a place that its windows reach"""
 
-CONFIDENCES = np.array([4.5, 4.5, 4.0, 3.5, 3.0, 2.75, 2.5, 2.5, 2.5])
+CONFIDENCES = np.array([4.0, 4.0, 3.5, 3.0, 2.5, 2.25, 2.0, 2.0, 2.0])
 """Half-widths of the confidence intervals of windows of `SIZES`, in standard errors. There are the
 more narrow windows in a second, so that chance has the more to offer: a rest is not to be torn
 apart by the one sample in thousands that lies far out"""

@@ -28,7 +28,7 @@ MEMBERS = 17
 PATH = (0.75, 0.5, 0.375, 0.25, 0.18, 0.12, 0.08, 0.05, 0.03, 0.015, 0.0)
 """Places of the provisional path, as shares of the lag before the newest sample"""
 
-CAUTION = 1.5
+CAUTION = 2.0
 """By how much the standard errors are taken for larger, since windows also are a little wrong"""
 
 HISTORY = 5000
