@@ -38,6 +38,10 @@ soak: setup ## Stream faulty tensions at the estimator and balance the books (MI
 bench: setup ## Measure the speed beside NumPy, C and a bare relay; tables, and build/bench.json
 	@$(run) cd tools && python -m bench --json ../build/bench.json
 
+.PHONY: validate
+validate: setup .venv/.validate ## Hold the contact laws against rigid-body simulation (minutes)
+	@$(run) cd tools && python -m validate
+
 .PHONY: lint
 lint: .venv/.complete ## Check style and types
 	@$(run) ruff check . && ruff format --check . && mypy
@@ -53,6 +57,10 @@ clean: ## Remove all that the targets made
 .venv/.complete: tools/make_venv.bash tools/mend_wheel_cmake.py tools/requirements.txt \
   tools/requirements-ros.txt
 	@tools/make_venv.bash $(PYTHON)
+	@touch $@
+
+.venv/.validate: tools/requirements-validate.txt .venv/.complete
+	@$(run) pip install --quiet -r $<
 	@touch $@
 
 install/.complete: .venv/.complete $(sources)

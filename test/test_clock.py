@@ -62,8 +62,13 @@ def with_some(stamps, where, values):
             with_some(SOUND, slice(40, 41), SOUND[40] - 9.0),
             'go back from .* at message 41 of 100',
         ),
+        (np.full(COUNT, SOUND[0]), '99 of 100 stamps on /tensions are that of the message before'),
+        (np.repeat(SOUND[::5], 5), '80 of 100 stamps on /tensions are that of the message before'),
     ],
-    ids=['without', 'negative', 'set back', 'one in the future', 'one in the past'],
+    ids=[
+        *('without', 'negative', 'set back', 'one in the future', 'one in the past'),
+        *('always the same', 'seldom new'),
+    ],
 )
 def test_stamps_that_are_no_clock_give_way_to_the_times_of_recording(tmp_path, stamps, said):
     """Nothing is sorted, so that a ramp stays a ramp, and none of it is left out."""
@@ -87,6 +92,15 @@ def test_messages_that_come_late_one_by_one_are_put_in_order_by_their_stamps(tmp
     assert recording.time == pytest.approx(0.01 * np.arange(COUNT), abs=1e-6)
     (note,) = recording.notes
     assert 'came late: they are put in order' in note
+
+
+def test_stamps_that_jump_ahead_are_named(tmp_path):
+    stamps = with_some(SOUND, slice(50, 100), SOUND[50:] + 37.0)
+    recording = load_recording(write_bag(tmp_path / 'bag', states(stamps)))
+    assert recording.time[-1] == pytest.approx(37.99)
+    note = recording.notes[0]
+    assert note.startswith('the stamps on /tensions jump ahead by 3')
+    assert 'at message 51 of 100, and the times of recording do not' in note
 
 
 def test_stamps_since_boot_and_topics_without_stamps_are_put_together_by_recording(tmp_path):

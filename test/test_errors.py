@@ -22,7 +22,8 @@ def all_errors():
         if name.endswith('launch_actions') and find_spec('launch_ros') is None:
             continue  # ROS 2 from PyPI has no launch
         for _, found in inspect.getmembers(import_module(name), inspect.isclass):
-            if issubclass(found, Exception) and found.__module__ == name:
+            is_ours = found.__module__ == name and not found.__name__.startswith('_')
+            if issubclass(found, Exception) and is_ours:
                 yield found
 
 

@@ -24,7 +24,7 @@ TIMES = np.arange(5.0)
         ({'tension_l': 102.0 * ONES, 'tension_s': 153.0 * ONES}, 'gf'),
         ({'tension_l': 1e4 * ONES, 'tension_s': 1.5e4 * ONES}, 'cable_l.gain'),
         ({'tension_l': 0.001 * ONES, 'tension_s': 0.0015 * ONES}, '[kgf]'),
-        ({'time': 20.0 * TIMES}, 'time [ms]'),
+        ({'time': 10.0 * TIMES}, 'time [ms]'),
         ({'time': 2e4 * TIMES}, 'time [us]'),
         ({'time': 1e7 * TIMES}, 'time [ns]'),
         ({'time': 1e-8 * TIMES}, 'may be a larger one'),

@@ -7,25 +7,25 @@ import pytest
 from designs import PRELIMINARY, cases
 from hypothesis import assume, given
 
-from tendon_statics import solve
-from tendon_statics.physics import paper, residual
+from tendon_statics import Regime, solve
+from tendon_statics.physics import CONTACT_LAWS, paper, residual
 
 CASE = (PRELIMINARY, paper.TENSION_L, paper.TENSION_S, paper.BEND_ANGLE)
 
 
 def test_as_printed_the_pressure_is_negative_and_there_is_no_root():
-    assert paper.force_pressure(*CASE, tuple(paper.Slip)) < 0.0
+    assert paper.force_pressure(*CASE, tuple(paper.Misprint)) < 0.0
     for index in range(31):
         angle = PRELIMINARY.max_bend_angle * index / 30
         case = (PRELIMINARY, paper.TENSION_L, paper.TENSION_S, angle)
-        assert paper.moment_pressure(*case) > paper.force_pressure(*case, tuple(paper.Slip))
+        assert paper.moment_pressure(*case) > paper.force_pressure(*case, tuple(paper.Misprint))
 
 
-@pytest.mark.parametrize('slip', list(paper.Slip))
-def test_every_slip_alone_spoils_the_published_result(slip):
+@pytest.mark.parametrize('misprint', list(paper.Misprint))
+def test_every_misprint_alone_spoils_the_published_result(misprint):
     left = paper.moment_pressure(*CASE)
     assert paper.force_pressure(*CASE) == pytest.approx(left, abs=1e-6)
-    assert paper.force_pressure(*CASE, (slip,)) != pytest.approx(left, abs=1.0)
+    assert paper.force_pressure(*CASE, (misprint,)) != pytest.approx(left, abs=1.0)
 
 
 @given(cases())
@@ -58,3 +58,22 @@ def test_the_plain_bisection_takes_its_halvings_and_ends_where_solve_does():
 @pytest.mark.parametrize('tension_s', [1.5, 3.0])
 def test_without_a_change_of_sign_there_is_nothing_to_bisect(tension_s):
     assert paper.bisect(PRELIMINARY, 1.0, tension_s) is None
+
+
+def test_without_a_load_the_laws_add_forces_as_numbers_or_as_vectors():
+    friction = PRELIMINARY.friction_coefficient
+    circle = replace(PRELIMINARY, contact_law='friction_circle')
+    assert paper.bare_capacity(PRELIMINARY) == pytest.approx(friction / (1.0 + friction))
+    assert paper.bare_capacity(circle) == pytest.approx(math.sin(math.atan(friction)))
+
+
+@pytest.mark.parametrize('law', CONTACT_LAWS)
+def test_the_unit_slips_just_beyond_what_is_said(law):
+    design = replace(PRELIMINARY, contact_law=law)
+    tension, friction = paper.slipping_tension(design), paper.slipping_friction(design)
+    for change, is_held in ((-1e-6, True), (1e-6, False)):
+        answer = solve(design, paper.TENSION_L, tension + change)
+        assert (answer.regime is Regime.HELD) is is_held
+        rougher = replace(design, friction_coefficient=friction - change)
+        answer = solve(rougher, paper.TENSION_L, paper.TENSION_S)
+        assert (answer.regime is Regime.HELD) is is_held

@@ -27,9 +27,7 @@ def driver(request):
 
 def latest_values(driver) -> dict[str, str]:
     """What the next report on /diagnostics counts."""
-    since = len(driver.diagnostics)
-    wait_for('a report', lambda: len(driver.diagnostics) > since)
-    return values(driver.diagnostics[-1])
+    return values(driver.report())
 
 
 @pytest.mark.parametrize('driver', STAMPED, indirect=True)

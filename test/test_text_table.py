@@ -44,6 +44,7 @@ LABVIEW = (
         ('sep=;\ntime;tension_l;tension_s\n0;1;1.5\n1;1;1.6\n', ('separated by semicolon',)),
         ('time;tension_l;tension_s\n0;1;1.5;\n1;1;1.6;\n', ('separated by semicolon',)),
         ('time|tension_l|tension_s\n0|1|1.5\n1|1|1.6\n', ('separated by bar',)),
+        ('time | tension_l | tension_s\n0 | 1 | 1.5\n1 | 1 | 1.6\n', ('separated by bar',)),
         ('time tension_l  tension_s\n0 1 1.5\n1   1 1.6\n', ('separated by space',)),
         ('time,tension_l,tension_s\n"0,0","1,0","1,5"\n"1,0",1,"1,6"\n', ('with a comma',)),
         ('% a run\n# of MATLAB\ntime,tension_l,tension_s\n0,1,1.5\n% pause\n1,1,1.6\n', ()),
@@ -130,6 +131,12 @@ def test_what_is_not_sure_is_refused_with_the_option_that_reads_it(file, text, o
 def test_what_programs_write_for_no_number_is_none(file, word):
     recording = load_recording(file(f'tension_l,tension_s\n1,1.5\n1,{word}\n')).whole()
     assert math.isnan(recording.tension_s[1])
+
+
+def test_a_long_rest_of_whole_numbers_does_not_hide_how_decimals_are_written(file):
+    rest = '0;0;0\n' * 500
+    recording = load_recording(file(f'time;tension_l;tension_s\n{rest}0,5;1,0;1,5\n')).whole()
+    assert recording.tensions()[-1] == (1.0, 1.5)
 
 
 def test_commas_between_columns_and_in_numbers_are_not_guessed_at(file):

@@ -124,6 +124,7 @@ def test_what_a_file_says_beside_the_design_is_written_again(unit, tmp_path):
         'cable_names: [a, "no"]',
         'cable_l.gain: 1.0e-05',
         'markers: true',
+        'limits: [1.5, .inf, -.inf]',
         'tension_stddev: 1',
     )
     before = load_unit(unit(*lines))

@@ -17,6 +17,8 @@ from pathlib import Path
 import list_driver_parameters
 import list_entities
 import list_permissions
+import validate.figure
+import validate.tables
 
 from tendon_statics.command_line.main import main as run
 
@@ -24,7 +26,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGES = (
     'README.md',
     *('docs/calibration.md', 'docs/recordings.md', 'docs/model.md', 'docs/node.md'),
-    *('docs/rig.md', 'docs/security.md'),
+    *('docs/rig.md', 'docs/security.md', 'docs/validation.md'),
 )
 SESSION = 'config/recorded_session.mcap'
 FIGURES = {
@@ -34,6 +36,7 @@ FIGURES = {
     'docs/map.svg': 'plot map --tension-l-range 0.8 1.2 --tension-s-range 1.6 2.4',
     'docs/recording.svg': f'plot recording {SESSION}',
     'docs/residual.svg': 'plot residual',
+    'docs/tilted.svg': 'plot unit --base-tilt-deg 10',
     'docs/unit.svg': 'plot unit',
 }
 
@@ -41,6 +44,7 @@ TOOLS = {
     'tools/list_driver_parameters.py': list_driver_parameters.main,
     'tools/list_entities.py': list_entities.main,
     'tools/list_permissions.py': list_permissions.main,
+    'tools/validate/tables.py': validate.tables.main,
 }
 
 _BLOCK = re.compile(r'(<!-- made by: (.+?) -->\n).*?(<!-- end -->)', re.DOTALL)
@@ -54,7 +58,7 @@ def made(page: str) -> str:
         program, *arguments = shlex.split(command)
         output = io.StringIO()
         with redirect_stdout(output):
-            code = TOOLS[program]() if program in TOOLS else run(arguments)
+            code = TOOLS[program](*arguments) if program in TOOLS else run(arguments)
         if code:
             raise RuntimeError(f'{command} ended with {code}')
         text = output.getvalue()
@@ -65,15 +69,21 @@ def made(page: str) -> str:
     return _BLOCK.sub(make, page)
 
 
+def make_page(name: str) -> None:
+    """Rewrite a page."""
+    os.chdir(ROOT)  # which the names of files in the pages are relative to
+    path = ROOT / name
+    path.write_text(made(path.read_text(encoding='utf-8')), encoding='utf-8')
+
+
 def main() -> int:
     """Rewrite the pages and figures."""
-    os.chdir(ROOT)  # which the names of files in the pages are relative to
     for name in PAGES:
-        path = ROOT / name
-        path.write_text(made(path.read_text(encoding='utf-8')), encoding='utf-8')
+        make_page(name)
     for name, arguments in FIGURES.items():
         if run([*shlex.split(arguments), '--output', str(ROOT / name)]) != 0:
             return 1
+    validate.figure.write()
     return 0
 
 

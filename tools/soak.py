@@ -132,8 +132,9 @@ def soak(observer: Observer, folder: Path, minutes: float) -> int:
                 memory.append(estimator.memory())
                 time.sleep(1.0)
             sent = made.sent()
-        memory.append(estimator.memory())
-        wait_for('all that is out', observer.is_quiet)
+            memory.append(estimator.memory())
+            # Until then the driver must be there, since what is on the way ends with it.
+            wait_for('all that is out', observer.is_quiet)
         code = estimator.end()
     grown = Counter({key: value - before.get(key, 0) for key, value in observer.counts.items()})
     return report(sent, grown, observer.came - came, memory, code)

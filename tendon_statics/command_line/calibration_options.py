@@ -5,17 +5,26 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import math
+from typing import Any, NamedTuple
 
 from ..files.unit_file import Unit
-from ..physics import Calibration, CalibrationError, calibrate
-from ..physics.calibration import DEFAULT_FIT, SLIPPING
+from ..physics import CONTACT_LAWS, Calibration, CalibrationError, DesignError, calibrate
+from ..physics.calibration import DEFAULT_FIT, SLIPPING, LawComparison, compare_laws
 from ..recordings.errors import RecordingError
 from ..recordings.hints import hints
 from ..recordings.motion import mark_motion
 from ..recordings.recording import Recording
 from ..recordings.scaling import usable
 from ..recordings.sessions import follow_each_other
-from .options import UsageError, add_tension_stddev_option, tension_stddev_from
+from .options import (
+    UsageError,
+    add_tension_stddev_option,
+    tension_stddev_from,
+)
+from .recorded_load import recorded_load
+
+ALL_LAWS = 'all'
+"""Of ``--contact-law``: compare them"""
 
 
 def add_calibration_options(parser: argparse.ArgumentParser) -> None:
@@ -24,7 +33,15 @@ def add_calibration_options(parser: argparse.ArgumentParser) -> None:
         '--fit',
         default=','.join(DEFAULT_FIT),
         metavar='NAME,...',
-        help='design parameters to fit; default: %(default)s',
+        help='design parameters to fit, and of the load cells gain_l, gain_s, bias_l (N), bias_s; '
+        'default: %(default)s',
+    )
+    parser.add_argument(
+        '--contact-law',
+        choices=(*CONTACT_LAWS, ALL_LAWS),
+        metavar='LAW',
+        help=f'fit {", ".join(CONTACT_LAWS)}, or {ALL_LAWS}: compare them on these data; default: '
+        "the design's",
     )
     states = parser.add_mutually_exclusive_group()
     states.add_argument(
@@ -91,7 +108,15 @@ def states_text(options: argparse.Namespace) -> str:
     return 'all slipping, as was said' if options.all_slipping else 'those of the recording'
 
 
-def calibration_from(options: argparse.Namespace, unit: Unit, recording: Recording) -> Calibration:
+class Fitted(NamedTuple):
+    """What was fitted, and how the contact laws compare if that was asked."""
+
+    calibration: Calibration
+    """With the law that was asked for, or the best of all"""
+    comparison: LawComparison | None = None
+
+
+def calibration_from(options: argparse.Namespace, unit: Unit, recording: Recording) -> Fitted:
     """Fit what the options name to the samples that the estimator would take.
 
     Raises
@@ -101,18 +126,25 @@ def calibration_from(options: argparse.Namespace, unit: Unit, recording: Recordi
     UsageError
         If SciPy is missing.
     """
+    load = recorded_load(options, unit, recording)
     try:
-        return calibrate(
-            unit.design,
-            states_from(options, usable(recording)),
-            [name.strip() for name in options.fit.split(',') if name.strip()],
-            tension_stddev=tension_stddev_from(options, unit),
-            bend_angle_stddev=math.radians(options.bend_angle_stddev_deg),
-            pressure_stddev=options.pressure_stddev,
-        )
+        asked: dict[str, Any] = {
+            'design': unit.design,
+            'data': states_from(options, usable(recording)),
+            'fit': [name.strip() for name in options.fit.split(',') if name.strip()],
+            'tension_stddev': tension_stddev_from(options, unit),
+            'bend_angle_stddev': math.radians(options.bend_angle_stddev_deg),
+            'pressure_stddev': options.pressure_stddev,
+            'load': load,
+        }
+        if options.contact_law != ALL_LAWS:
+            return Fitted(calibrate(**asked, contact_law=options.contact_law))
+        comparison = compare_laws(**asked)
+        assert comparison.best.calibration is not None
+        return Fitted(comparison.best.calibration, comparison)
     except ImportError:
         raise UsageError(
             'a calibration needs SciPy: install python3-scipy or pip install scipy'
         ) from None
-    except (CalibrationError, RecordingError) as error:
+    except (CalibrationError, DesignError, RecordingError) as error:
         raise type(error)('; '.join([str(error), *hints(recording, unit.design)])) from None

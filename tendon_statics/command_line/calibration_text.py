@@ -4,11 +4,18 @@ from __future__ import annotations
 
 import math
 
-from ..physics import Calibration, design_parameters
-from ..physics.calibration import HELD, SLIPPING, FittedParameter
+from ..physics import Calibration
+from ..physics.calibration import HELD, SLIPPING, FittedParameter, LawComparison
+from ..physics.calibration.law_comparison import LawFit
+from ..physics.calibration.parameters import fit_parameters
 from .tables import Facts, fact_lines, markdown_table
 
-_UNITS = {parameter.name: parameter.unit or '1' for parameter in design_parameters()}
+_UNITS = {parameter.name: parameter.unit or '1' for parameter in fit_parameters()}
+
+LAW_TITLES = (
+    *('contact law', 'criterion:', 'above the best:', 'the data'),
+    'fitted with it',
+)
 
 PARAMETER_TITLES = (
     *('parameter', 'unit', 'start:', 'fitted:', 'standard error:', '95 % interval'),
@@ -68,11 +75,43 @@ def calibration_facts(calibration: Calibration, name: str) -> Facts:
     ]
 
 
-def calibration_text(calibration: Calibration, name: str, read: Facts) -> str:
+def law_rows(comparison: LawComparison) -> list[tuple[str, ...]]:
+    """Rows of the table of contact laws, under `LAW_TITLES`."""
+    return [_law_row(fit, is_best=fit is comparison.best) for fit in comparison.fits]
+
+
+def law_facts(comparison: LawComparison) -> Facts:
+    """What the data say of the laws, and what would say more."""
+    advice = [('would tell', one.text) for one in comparison.advice]
+    return [('contact law', comparison.statement), *advice]
+
+
+def _law_row(fit: LawFit, *, is_best: bool) -> tuple[str, ...]:
+    if fit.calibration is None:
+        verdict = 'no fit' if fit.is_applicable else 'no such unit'
+        return fit.law, '', '', verdict, fit.failure
+    values = ', '.join(
+        f'{of.name} = ' + ('not determined' if of.value is None else f'{of.value:.4g}')
+        for of in fit.calibration.parameters
+    )
+    criterion = fit.loss + 2.0 * fit.parameter_count
+    verdict = 'are likeliest' if is_best else 'rule it out' if fit.is_ruled_out else 'allow it'
+    return fit.law, f'{criterion:.2f}', f'{fit.difference:.2f}', verdict, values
+
+
+def calibration_text(
+    calibration: Calibration, name: str, read: Facts, comparison: LawComparison | None = None
+) -> str:
     """Everything, as it is printed, with how the data were read."""
     titles = ('correlation', *(f'{parameter.name}:' for parameter in calibration.parameters))
     first, *others = calibration_facts(calibration, name)
     parts = [fact_lines([first, *read, *others])]
+    if comparison is not None:
+        parts += [
+            markdown_table(LAW_TITLES, law_rows(comparison)),
+            fact_lines(law_facts(comparison)),
+            f'with {comparison.best.law}:',
+        ]
     parts.append(markdown_table(PARAMETER_TITLES, parameter_rows(calibration)))
     if len(calibration.parameters) > 1:
         parts.append(markdown_table(titles, correlation_rows(calibration)))

@@ -14,7 +14,7 @@ from ..recordings.recording import Recording
 from .calibration_options import add_calibration_options, calibration_from
 from .figure_recording import MANY
 from .figures import BLUE, GREY, SKY, VERMILION
-from .options import add_design_option
+from .options import add_design_option, add_load_options
 from .recording_options import (
     add_recording_options,
     report_damage,
@@ -34,12 +34,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_recording_options(parser)
     add_design_option(parser)
     add_calibration_options(parser)
+    add_load_options(parser)
 
 
 def draw(drawing: Figure, options: argparse.Namespace) -> int:
     """Read, fit and draw; return the exit code."""
     unit, recording = unit_and_recording(options)
-    calibration = calibration_from(options, unit, recording)
+    calibration = calibration_from(options, unit, recording).calibration
     draw_calibration(drawing, calibration, recording)
     report_notes(unit, recording)
     return report_damage(recording)
@@ -66,6 +67,7 @@ def _draw_distances(axes: Axes, calibration: Calibration, recording: Recording) 
         recording.bend_angle,
         pressure,
         calibration.noise,
+        calibration.loads,
     ).standardised
     after = calibration.distance.standardised
     axes.axhspan(-2.0, 2.0, color='#e6f1f8', label='within 2 standard deviations')
@@ -112,6 +114,16 @@ def _draw_values(axes: Axes, calibration: Calibration) -> None:
         if parameter.value is None or parameter.interval is None:
             axes.annotate(
                 'not determined',
+                (100.0, row),
+                xytext=(6, 0),
+                textcoords='offset points',
+                va='center',
+            )
+            continue
+        if not parameter.start:  # has no share
+            low, high = parameter.interval
+            axes.annotate(
+                f'{parameter.value:.3g}, from {low:.3g} to {high:.3g}; it began at 0',
                 (100.0, row),
                 xytext=(6, 0),
                 textcoords='offset points',

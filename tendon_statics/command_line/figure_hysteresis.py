@@ -23,15 +23,13 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
     axes = drawing.subplots()
     total = equilibrium.tension_l + equilibrium.tension_s
     # Far enough for the unit to slip both ways, within what the cables can trade.
+    not_held = [
+        difference
+        for difference in between(-0.999 * total, 0.999 * total, 1000)
+        if not admissible_angles(design, *_share(total, difference), load)
+    ]
     at_limit = [
-        min(
-            (
-                share
-                for share in between(0.0, 0.999 * total, 500)
-                if not admissible_angles(design, *_share(total, side * share), load)
-            ),
-            default=0.8 * total,
-        )
+        min((side * d for d in not_held if side * d > 0.0), default=0.8 * total)
         for side in (-1.0, 1.0)
     ]
     reach = min(1.25 * max(at_limit), 0.999 * total)

@@ -27,7 +27,7 @@ class _Quantity(NamedTuple):
 
     label: str
     colours: str
-    """Colour map, even in lightness, told apart with any colour vision"""
+    """Colour map of even steps in lightness, readable with any colour vision"""
 
 
 QUANTITIES = {
@@ -37,7 +37,7 @@ QUANTITIES = {
 }
 
 WIDE = 20.0
-"""Largest over smallest value from which on the colours are logarithmic"""
+"""Ratio of the largest to the smallest value above which the colours are logarithmic"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -55,7 +55,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def draw(drawing: Figure, options: argparse.Namespace) -> None:
-    """Draw the map, and the regimes that have no number."""
+    """Draw the map, and the areas that have no number."""
     from matplotlib.colors import ListedColormap, LogNorm
     from matplotlib.patches import Patch
 
@@ -118,7 +118,7 @@ def _values(answers: EquilibriumBatch, quantity: str) -> Floats:
 
 
 def _name_stop(axes: Axes, answers: EquilibriumBatch, side: str, sign: float) -> None:
-    """Write into the region where the unit is driven to a stop that it is."""
+    """Label the area in which the unit is driven to one of its stops."""
     stopped = answers.regime == REGIME_CODES[Regime.DRIVEN_TO_STOP]
     there = stopped & (sign * answers.bend_angle > 0.0)
     if there.mean() < 0.05:

@@ -19,7 +19,7 @@ FORMATS = ('.pdf', '.png', '.svg')
 SIZE = (6.4, 4.0)
 """Width and height in inches, unless a figure has its own"""
 
-# Okabe and Ito's palette, told apart with any colour vision and in grey print.
+# Okabe and Ito's palette, distinct with any colour vision and in grey print.
 BLUE, ORANGE, GREEN, VERMILION = '#0072B2', '#E69F00', '#009E73', '#D55E00'
 SKY, GREY = '#56B4E9', '#999999'
 

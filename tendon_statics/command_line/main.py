@@ -75,15 +75,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
             module = import_module(f'{__package__}.{verb}')
             module.add_arguments(subparser)
             subparser.set_defaults(run=module.run)
-    with suppress(ValueError):  # It is not for other threads than the main one.
-        # So that a file that is being written is taken away.
+    with suppress(ValueError):  # Only the main thread may.
+        # So that a half-written file is removed.
         signal.signal(signal.SIGTERM, _interrupt)
     try:
         chosen = parser.parse_args(arguments)
         code: int | None = chosen.run(chosen)
         sys.stdout.flush()
     except BrokenPipeError:
-        # The reader of our output has gone, as `head` does; that is no error of ours.
+        # Whoever reads the output has stopped, as `head` does; that is not an error.
         _drop_output()
         return 0
     except KeyboardInterrupt as interruption:

@@ -1,4 +1,4 @@
-"""Options that several verbs share, and the error for asking too much of them."""
+"""Options that several verbs share, and the error for those that cannot be met."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ TENSION_STDDEV = 0.01
 
 
 class UsageError(TendonStaticsError):
-    """The command line asks for what cannot be; the text is for the user."""
+    """The command line asks for something impossible; the text is for the user."""
 
 
 def add_design_option(parser: argparse.ArgumentParser) -> None:
@@ -153,7 +153,7 @@ def _finite(text: str) -> float:
 
 
 def _deviation(text: str) -> float:
-    """Return a standard deviation, of which there is none that is not finite and above 0."""
+    """Return a standard deviation, which has to be finite and above 0."""
     try:
         value = float(text)
     except ValueError:

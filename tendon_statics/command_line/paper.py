@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import math
 
 from ..files.design_file import default_design_path, load_design
 from ..physics import JointDesign, Regime, contact_coefficients, paper, solve
+from ..physics.contact import CONTACT_LAWS
+from ..physics.contact.zone import seat_constants
 from .tables import markdown_table
 
 
@@ -77,19 +80,19 @@ def _band(design: JointDesign) -> str:
 def _errata(design: JointDesign) -> str:
     tensions = (paper.TENSION_L, paper.TENSION_S)
 
-    def row(label: str, slips: tuple[paper.Slip, ...]) -> tuple[str, str, str]:
+    def row(label: str, misprints: tuple[paper.Misprint, ...]) -> tuple[str, str, str]:
         pressure = paper.force_pressure(
-            design, paper.TENSION_L, paper.TENSION_S, paper.BEND_ANGLE, slips
+            design, paper.TENSION_L, paper.TENSION_S, paper.BEND_ANGLE, misprints
         )
         residuals = [
             paper.moment_pressure(design, *tensions, angle) - right
             for angle in (0.0, design.max_bend_angle)
-            if (right := paper.force_pressure(design, *tensions, angle, slips)) is not None
+            if (right := paper.force_pressure(design, *tensions, angle, misprints)) is not None
         ]
         ends = ', '.join(f'{value:+.1f}' for value in residuals) or 'not real'
         return label, 'not real' if pressure is None else f'{pressure:+.1f}', ends
 
-    every = tuple(paper.Slip)
+    every = tuple(paper.Misprint)
     return markdown_table(
         (
             'Eq. (4)',
@@ -99,8 +102,8 @@ def _errata(design: JointDesign) -> str:
         [
             row('as printed', every),
             *(
-                row(f'all corrected but {slip.name.lower().replace("_", " ")}', (slip,))
-                for slip in every
+                row(f'all corrected but {misprint.name.lower().replace("_", " ")}', (misprint,))
+                for misprint in every
             ),
             row('corrected', ()),
         ],
@@ -153,6 +156,48 @@ def _signs(design: JointDesign) -> str:
     )
 
 
+def _laws(design: JointDesign) -> str:
+    """What each contact law makes of the published tensions."""
+    rows = []
+    for law, of_law in CONTACT_LAWS.items():
+        unit = dataclasses.replace(design, contact_law=law)
+        tensions = (paper.TENSION_L, paper.TENSION_S)
+        rows.append(
+            (
+                f'`{law}`',
+                of_law.fits,
+                f'{paper.bare_capacity(unit):.4f}',
+                solve(unit, *tensions).regime.value,
+                f'{paper.slipping_tension(unit):.3f}',
+                f'{paper.slipping_friction(unit):.3f}',
+            )
+        )
+    return markdown_table(
+        (
+            '`contact_law`',
+            'for',
+            'K/(r T) without a load:',
+            'at 1 N and 2 N',
+            'slips at T_l = 1 N from T_s [N]:',
+            'slips at 1 N and 2 N below μ:',
+        ),
+        rows,
+    )
+
+
+ZONES = ((20.0, 50.0), (60.0, 88.49))
+"""Contact zones in deg whose constants are shown: a seat near the axis, and the paper's"""
+
+
+def _seat(_design: JointDesign) -> str:
+    rows = []
+    for start, end in ZONES:
+        zone = seat_constants(math.radians(start), math.radians(end))
+        constants = (zone.lever, zone.coupling, zone.axial_friction, zone.mean_pressure)
+        rows.append((f'{start:g}° to {end:g}°', *(f'{value:.4f}' for value in constants)))
+    return markdown_table(('zone', 'k_c:', 'c:', 'q:', '⟨cos t⟩/a:'), rows)
+
+
 SECTIONS = {
     'published': _published,
     'bisection': _bisection,
@@ -160,5 +205,7 @@ SECTIONS = {
     'errata': _errata,
     'identified': _identified,
     'signs': _signs,
+    'laws': _laws,
+    'seat': _seat,
 }
 """Section → what makes its table."""

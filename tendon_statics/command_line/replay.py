@@ -22,9 +22,9 @@ from .options import (
     tension_stddev_from,
 )
 from .progress import with_progress
+from .recorded_load import recorded_load
 from .recording_options import (
     add_recording_options,
-    recorded_load,
     report_damage,
     unit_and_recording,
 )
@@ -117,7 +117,7 @@ def _is_within(path: Path, recording: Path) -> bool:
 
 
 def _writer(path: Path | None) -> _Writer | None:
-    """Return what writes to such a file; found before the work, so that none is in vain."""
+    """Return what writes such a file; looked up before the work, lest that be in vain."""
     if path is None:
         return None
     if path.suffix not in _WRITERS:

@@ -12,15 +12,20 @@ from pathlib import Path
 from string import Template
 
 from ..files.output_file import OutputError, output_file
-from ..physics import Calibration, CalibrationError, JointDesign, design_fields
+from ..physics import CalibrationError, JointDesign, design_fields
+from ..physics.calibration.load_cells import AS_MEASURED
 from ..recordings.errors import RecordingError
 from ..recordings.recording import Recording
+from ..recordings.scaling import corrected
 from . import figure_calibration, figure_recording
-from .calibration_options import add_calibration_options, calibration_from
+from .calibration_options import Fitted, add_calibration_options, calibration_from
 from .calibration_text import (
+    LAW_TITLES,
     PARAMETER_TITLES,
     calibration_facts,
     correlation_rows,
+    law_facts,
+    law_rows,
     parameter_rows,
 )
 from .figure_calibration import draw_calibration
@@ -87,16 +92,18 @@ def run(options: argparse.Namespace) -> int:
         parts.append(_warning(f'Not all of it could be read: {recording.damage_summary}'))
     note = ''
     try:
-        calibration = calibration_from(options, unit, recording)
+        fit = calibration_from(options, unit, recording)
     except (CalibrationError, RecordingError) as error:
         design, of = start, _start_name(options)
         fitted = ['<h2>Calibration</h2>', _warning(f'Nothing could be fitted: {error}')]
         note = f'tendon-statics: {path} has no calibration: {error}'
     else:
+        calibration = fit.calibration
         design, of = calibration.design or start, 'the fitted design'
+        recording = corrected(recording, calibration.cells or AS_MEASURED)
         if calibration.design is None:
             of = f'{_start_name(options)}, since the fit does not determine a design'
-        fitted = _calibration_part(calibration, recording, _start_name(options))
+        fitted = _calibration_part(fit, recording, _start_name(options))
     replayed = replay_from(options, unit, design, recording)
     parts += [
         f'<h2>Recording, with {escape(of)}</h2>',
@@ -126,16 +133,17 @@ def _start_name(options: argparse.Namespace) -> str:
     return Path(options.design).name if options.design else 'the preliminary design'
 
 
-def _calibration_part(calibration: Calibration, recording: Recording, start: str) -> list[str]:
+def _calibration_part(fit: Fitted, recording: Recording, start: str) -> list[str]:
+    calibration, comparison = fit
     names = [parameter.name for parameter in calibration.parameters]
     parts = [
         '<h2>Calibration</h2>',
         *map(_warning, calibration.warnings),
         _facts([('start', start), *calibration_facts(calibration, recording.name)]),
-        _table(
-            [title.removesuffix(':') for title in PARAMETER_TITLES], parameter_rows(calibration)
-        ),
     ]
+    if comparison is not None:
+        parts += [_table(LAW_TITLES, law_rows(comparison)), _facts(law_facts(comparison))]
+    parts.append(_table(PARAMETER_TITLES, parameter_rows(calibration)))
     if len(names) > 1:
         parts.append(_table(['correlation', *names], correlation_rows(calibration)))
     parts.append(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from ..physics.errors import TendonStaticsError
+
 Vector = tuple[float, float, float]
 
 UNIT_TOLERANCE = 1e-3
@@ -17,7 +19,7 @@ REST_TOLERANCE = 0.1
 the bias of a sensor"""
 
 
-class OrientationError(ValueError):
+class OrientationError(TendonStaticsError, ValueError):
     """What is measured tells no direction of gravity; the text is for the user."""
 
 

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 
 from ..physics.design import JointDesign, design_fields
+from ..physics.design_uncertainty import DesignUncertainty
 from ..physics.errors import DesignError
 from .installed_files import installed_config
 from .output_file import output_file
 from .parameter_file import (
     ParameterFileError,
     dotted_parameters,
+    node_parameters,
     parameter_blocks,
     read_parameters,
 )
 
 _PREFIX = 'design.'
+_UNCERTAIN = 'design_uncertainty.parameters'
+_COVARIANCE = 'design_uncertainty.covariance'
 
 
 def load_design(path: str | Path) -> JointDesign:
@@ -48,11 +53,58 @@ def load_design(path: str | Path) -> JointDesign:
         raise DesignError(f'{path}: {"design." if error.key else ""}{error}', key=key) from None
 
 
+def load_design_uncertainty(path: str | Path, node: str = '') -> DesignUncertainty | None:
+    """Read how well a design is known from a ROS parameter file; None if that does not say it.
+
+    It stands in ``design_uncertainty.parameters``, names, and ``design_uncertainty.covariance``,
+    numbers in SI row by row, as `save_design` writes them.
+
+    Parameters
+    ----------
+    node : str
+        Full name of the estimator; empty: the one that the file names, or any.
+
+    Raises
+    ------
+    DesignError
+        If the file cannot be read, or what it says is no covariance of design parameters.
+    """
+    path = Path(path)
+    try:
+        return uncertainty_in(node_parameters(read_parameters(path), node))
+    except ParameterFileError as error:
+        raise DesignError(f'{path}: {error}') from None
+    except DesignError as error:
+        raise DesignError(f'{path}: {error}', key=error.key) from None
+
+
+def uncertainty_in(parameters: Mapping[str, object]) -> DesignUncertainty | None:
+    """Return what parameters by dotted name say of how well the design is known.
+
+    Raises
+    ------
+    DesignError
+        If it is no covariance of design parameters.
+    """
+    names, covariance = parameters.get(_UNCERTAIN), parameters.get(_COVARIANCE)
+    if names is None and covariance is None:
+        return None
+    for key, values in ((_UNCERTAIN, names), (_COVARIANCE, covariance)):
+        if not isinstance(values, (list, tuple)):
+            raise DesignError(f'{key} is {values!r}, a list is needed', key=key)
+    try:
+        return DesignUncertainty.of_flat(names, covariance)  # type: ignore[arg-type]
+    except DesignError as error:
+        key = f'design_uncertainty.{error.key}'
+        raise DesignError(f'design_uncertainty.{error}', key=key) from None
+
+
 def save_design(
     path: str | Path,
     design: JointDesign,
     comment: str = '',
     parameters: Mapping[str, object] | None = None,
+    uncertainty: DesignUncertainty | None = None,
 ) -> None:
     """Write a design to a ROS parameter file that `load_design` and the node take.
 
@@ -64,20 +116,23 @@ def save_design(
         Text at the beginning of the file.
     parameters : mapping
         What else the node is to take from it, by dotted name: numbers, texts, lists of these.
+    uncertainty : DesignUncertainty, optional
+        How well the design is known, in place of what `parameters` say of that.
 
     Raises
     ------
     OutputError
         If the file cannot be written; what was there then stays.
     """
-    import json  # Here, for who only solves should not wait for it.
-
     lines = [f'# {line}'.rstrip() for line in comment.splitlines()]
     lines += ['/**:', '  ros__parameters:']
-    # JSON is YAML, but for numbers such as 1e-05, which ROS takes as Python writes them.
+    others = dict(parameters or {})
+    if uncertainty is not None:
+        others[_UNCERTAIN] = list(uncertainty.parameters)
+        others[_COVARIANCE] = uncertainty.flat
     lines += [
-        f'    {name}: {json.dumps(value, ensure_ascii=False)}'
-        for name, value in (parameters or {}).items()
+        f'    {name}: {_yaml(value)}'
+        for name, value in others.items()
         if not name.startswith(_PREFIX)
     ]
     lines.append('    design:')
@@ -100,6 +155,17 @@ def default_design_path() -> Path:
         If the package was copied without its data files.
     """
     return installed_config('preliminary_design.yaml')
+
+
+def _yaml(value: object) -> str:
+    """Write a parameter's value in one line as ROS reads it: as JSON, but for what that lacks."""
+    import json  # Here, for who only solves should not wait for it.
+
+    if isinstance(value, list):
+        return f'[{", ".join(map(_yaml, value))}]'
+    if isinstance(value, float) and not math.isfinite(value):
+        return '.nan' if math.isnan(value) else f'{"-" * (value < 0.0)}.inf'
+    return json.dumps(value, ensure_ascii=False)
 
 
 def _designs(content: object) -> dict[str, dict[str, object]]:

@@ -49,7 +49,7 @@ def output_file(path: Path) -> Iterator[Path]:
 
 
 def _mode(path: Path) -> int:
-    """Permissions of the file as it is, or as a new one gets them."""
+    """Permissions of the existing file, or those that a new one gets."""
     if path.exists():
         return stat.S_IMODE(path.stat().st_mode)
     umask = os.umask(0)

@@ -61,8 +61,8 @@ def dotted_parameters(block: object) -> dict[str, object]:
 def node_parameters(content: object, node: str = '') -> dict[str, object]:
     """The parameters that a node takes, by dotted name.
 
-    As in ROS, of all blocks whose name fits the node the last counts, be it ``/**`` or the node's
-    own.
+    As in ROS, of several blocks whose names fit the node the last one counts, be it ``/**`` or the
+    node's own.
 
     Parameters
     ----------
@@ -107,15 +107,15 @@ def node_parameter(content: object, node: str, parameter: str) -> object:
 
 
 def check_parameter_files(arguments: Sequence[str], node: str = '') -> None:
-    """Hold the parameter files that a node was started with to what every reader of them asks.
+    """Check the parameter files of a node, as strictly as their strictest reader does.
 
     Parameters
     ----------
     arguments : sequence of str
         Of the program, in which files follow ``--params-file``.
     node : str
-        Full name of the node, to which a file must not be for other nodes only: it would compute
-        with another unit than is meant. Empty: that is not looked at.
+        Full name of the node. A file that is for other nodes only is refused: the node would
+        compute with another unit than is meant. Empty: this is not checked.
 
     Raises
     ------

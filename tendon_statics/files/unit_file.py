@@ -10,9 +10,10 @@ from typing import Any
 
 from ..physics.admissible import check_bend_angle
 from ..physics.design import JointDesign
+from ..physics.design_uncertainty import DesignUncertainty
 from ..physics.errors import BendAngleError, DesignError
 from ..tensions.cable_scale import CableScale
-from .design_file import design_values
+from .design_file import design_values, uncertainty_in
 from .number_parameter import SettingError
 from .parameter_file import ParameterFileError, node_parameters, read_parameters
 from .unit_parameters import (
@@ -39,6 +40,8 @@ class Unit:
     cable_s: CableScale
     parameters: Mapping[str, Any] = dataclasses.field(default_factory=dict)
     """All that the file gives the estimator, by dotted name, as it stands there"""
+    uncertainty: DesignUncertainty | None = None
+    """How well the design is known, if the file says it"""
 
     def get(self, name: str) -> Any:
         """Return what the file sets a parameter to; None if it does not."""
@@ -80,12 +83,16 @@ def load_unit(path: str | Path, node: str = '') -> Unit:
             raise DesignError(
                 'there is no design in it; it stands under "/**: ros__parameters: design:"'
             )
-        return _unit(JointDesign.from_mapping(design), parameters)
-    except (ParameterFileError, SettingError) as error:
+        made = JointDesign.from_mapping(design)
+    except ParameterFileError as error:
         raise DesignError(f'{path}: {error}') from None
     except DesignError as error:
         key = f'design.{error.key}' if error.key else ''
         raise DesignError(f'{path}: {"design." if error.key else ""}{error}', key=key) from None
+    try:
+        return _unit(made, parameters)
+    except (SettingError, DesignError) as error:
+        raise DesignError(f'{path}: {error}', key=getattr(error, 'key', '')) from None
 
 
 def _unit(design: JointDesign, parameters: dict[str, object]) -> Unit:
@@ -95,6 +102,8 @@ def _unit(design: JointDesign, parameters: dict[str, object]) -> Unit:
     ------
     SettingError
         If one is not allowed.
+    DesignError
+        If what they say of how well the design is known is no covariance.
     """
     for number in NUMBERS:
         if number.name in parameters:
@@ -112,7 +121,7 @@ def _unit(design: JointDesign, parameters: dict[str, object]) -> Unit:
     except BendAngleError as error:
         raise SettingError(f'initial_{error}') from None
     cable_l, cable_s = (cable_scale(cable, parameters) for cable in CABLES)
-    return Unit(design, cable_l, cable_s, parameters)
+    return Unit(design, cable_l, cable_s, parameters, uncertainty_in(parameters))
 
 
 def cable_scale(cable: str, parameters: Mapping[str, Any]) -> CableScale:

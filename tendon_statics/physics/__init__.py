@@ -12,6 +12,7 @@ from .design import (
     design_fields,
     design_parameters,
 )
+from .design_uncertainty import DesignUncertainty
 from .errors import (
     BendAngleError,
     CalibrationError,
@@ -32,7 +33,7 @@ from .tracker import StickSlipTracker
 
 if TYPE_CHECKING:
     from .batch import EquilibriumBatch, solve_batch
-    from .calibration import Calibration, calibrate
+    from .calibration import Calibration, LawComparison, calibrate, compare_laws
     from .filter import FilterState, StickSlipFilter
 
 __all__ = [
@@ -46,11 +47,13 @@ __all__ = [
     'DesignChoice',
     'DesignError',
     'DesignParameter',
+    'DesignUncertainty',
     'Equilibrium',
     'EquilibriumBatch',
     'FilterState',
     'ForceRemainder',
     'JointDesign',
+    'LawComparison',
     'Load',
     'LoadError',
     'Regime',
@@ -63,6 +66,7 @@ __all__ = [
     'UnreachableError',
     'admissible_angles',
     'calibrate',
+    'compare_laws',
     'contact_coefficients',
     'design_fields',
     'design_parameters',
@@ -78,8 +82,10 @@ _NEEDING_NUMPY = {
     'Calibration': '.calibration',
     'EquilibriumBatch': '.batch',
     'FilterState': '.filter',
+    'LawComparison': '.calibration',
     'StickSlipFilter': '.filter',
     'calibrate': '.calibration',
+    'compare_laws': '.calibration',
     'solve_batch': '.batch',
 }
 """Public name → the module that has it, loaded only by who asks for it"""

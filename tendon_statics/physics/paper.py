@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from enum import Enum
 
 from .design import JointDesign
 from .forces import contact_coefficients
+from .load import UPRIGHT
 from .solver import solve
 from .state import Regime
+from .tensions import Tensions, taut_slip
 
 TENSION_L, TENSION_S = 1.0, 2.0
 """Published input, N"""
@@ -45,7 +47,7 @@ def identify_mass_and_offset(design: JointDesign) -> JointDesign:
     )
 
 
-class Slip(Enum):
+class Misprint(Enum):
     """A place where the printed Eq. (4) differs from what Eqs. (1) to (3) give."""
 
     GROUPING = 'T (|C_F| − m g μ C_fZ), which adds m to N m; for T |C_F| − m g μ C_fZ'
@@ -58,11 +60,11 @@ def force_pressure(
     tension_l: float,
     tension_s: float,
     bend_angle: float,
-    slips: Collection[Slip] = (),
+    misprints: Collection[Misprint] = (),
 ) -> float | None:
-    """Right-hand side of Eq. (4) in Pa, with these of its slips as printed; None if not real.
+    """Right-hand side of Eq. (4) in Pa, with these of its misprints; None if not real.
 
-    With no slips it is N_f / (C w), though not in a form that keeps its digits near μ = 1.
+    With none it is N_f / (C w), though not in a form that keeps its digits near μ = 1.
     Numbers are taken as they stand where the units do not fit.
     """
     arc = contact_coefficients(design, bend_angle)
@@ -70,16 +72,16 @@ def force_pressure(
     total = tension_l + tension_s
     pressure_square = arc.pressure_x**2 + arc.pressure_z**2
     friction_square = arc.friction_x**2 + arc.friction_z**2
-    if Slip.GROUPING in slips:
+    if Misprint.GROUPING in misprints:
         linear = total * (math.sqrt(pressure_square) - weight * friction * arc.friction_z)
     else:
         linear = total * math.sqrt(pressure_square) - weight * friction * arc.friction_z
-    power = 1 if Slip.FRICTION_POWER in slips else 2
+    power = 1 if Misprint.FRICTION_POWER in misprints else 2
     square = friction**power * friction_square - pressure_square
     discriminant = linear**2 - square * (weight**2 - total**2)
     if discriminant < 0.0 or square == 0.0:
         return None
-    sign = 1.0 if Slip.SIGN in slips else -1.0
+    sign = 1.0 if Misprint.SIGN in misprints else -1.0
     return sign * (linear - math.sqrt(discriminant)) / square / design.contact_width
 
 
@@ -133,17 +135,47 @@ def equilibrium_band(design: JointDesign) -> tuple[float, float]:
     For a design with a root in the published case.
     """
 
-    def last(regime: Regime, low: float, high: float) -> float:
-        """Largest tension with the regime, which `low` has and `high` has not."""
-        while high - low > 1e-9:
-            middle = 0.5 * (low + high)
-            if solve(design, TENSION_L, middle).regime is regime:
-                low = middle
-            else:
-                high = middle
-        return low
+    def is_at_a_root(tension_s: float) -> bool:
+        return solve(design, TENSION_L, tension_s).regime is Regime.EQUILIBRIUM
 
     return (
-        last(Regime.HELD, TENSION_L, TENSION_S),
-        last(Regime.EQUILIBRIUM, TENSION_S, 10.0 * TENSION_S),
+        slipping_tension(design),
+        _edge(is_at_a_root, TENSION_S, 10.0 * TENSION_S),
     )
+
+
+def slipping_tension(design: JointDesign) -> float:
+    """Return the tension of cable s, in N, up to which the unit is held at the published T_l."""
+
+    def is_held(tension_s: float) -> bool:
+        return solve(design, TENSION_L, tension_s).regime is Regime.HELD
+
+    return _edge(is_held, TENSION_L, 100.0 * TENSION_S)
+
+
+def slipping_friction(design: JointDesign) -> float:
+    """Return the friction coefficient below which the unit slips at the published tensions."""
+
+    def slips(friction: float) -> bool:
+        unit = dataclasses.replace(design, friction_coefficient=friction)
+        return solve(unit, TENSION_L, TENSION_S).regime is not Regime.HELD
+
+    return _edge(slips, 0.01, 10.0)
+
+
+def bare_capacity(design: JointDesign) -> float:
+    """Return K / (r T) of a design without a load, which is its law's and its friction's alone."""
+    bare = dataclasses.replace(design, mass=0.0)
+    slip = taut_slip(bare, Tensions(TENSION_L, TENSION_S), UPRIGHT)
+    return slip.at(0.0).capacity  # type: ignore[no-any-return]
+
+
+def _edge(holds: Callable[[float], bool], low: float, high: float) -> float:
+    """Return up to where something holds that does at `low` and not at `high`, by halving."""
+    while high - low > 1e-9:
+        middle = 0.5 * (low + high)
+        if holds(middle):
+            low = middle
+        else:
+            high = middle
+    return low

@@ -76,9 +76,7 @@ def slip_angle_distribution(
     slip = taut_slip(design, tensions, load)
     if tension_l > tension_s:
         slip = slip.mirrored()
-    return SlipAngleDistribution(
-        design, tensions, load, slip, tension_stddev, design_covariance
-    )
+    return SlipAngleDistribution(design, tensions, load, slip, tension_stddev, design_covariance)
 
 
 class SlipAngleDistribution:
@@ -231,9 +229,7 @@ class SlipAngleDistribution:
 
     @cached_property
     def _drawn(self) -> _Drawn:
-        return _Drawn(
-            self._design, self._tensions, self._load, self._stddev, self._uncertainty
-        )
+        return _Drawn(self._design, self._tensions, self._load, self._stddev, self._uncertainty)
 
 
 class _Score:

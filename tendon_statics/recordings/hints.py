@@ -8,16 +8,16 @@ from ..physics import JointDesign
 from .recording import Recording
 
 BEYOND = 0.2
-"""Share of angles beyond the stop from which on the unit of them is doubted: a unit rests against
-its stop, but for noise, and does not go past it"""
+"""Share of angles beyond the stop above which their unit is doubted: a unit rests against its stop
+and does not pass it, but for noise"""
 
 SLACK_OF_STOP = 0.05
-"""Share of the stop by which noise and a rough drawing may let an angle be beyond it"""
+"""Share of the stop by which noise or a rough drawing may put an angle beyond it"""
 
 MANY_WEIGHTS = 300.0
 """Times the unit's weight that a cable of such a unit pulls at most, in the median"""
 
-SLOWEST, FASTEST = 10.0, 1e-5
+SLOWEST, FASTEST = 2.5, 1e-5
 """s from one sample to the next, in the median"""
 
 
@@ -74,13 +74,11 @@ def _of_tensions(recording: Recording, design: JointDesign) -> str:
         return ''
     middle = float(np.median(pulled))
     if middle > MANY_WEIGHTS * design.weight:
-        whole = bool((pulled == np.round(pulled)).all())
-        counts = 'the counts of an amplifier' if whole else 'in gf or the counts of an amplifier'
         return (
             f'the tensions, {middle:.4g} N in the middle, are {middle / design.weight:.3g} times '
-            f'the weight of the unit: if they are mN or gf, say so, tension_l [mN] or '
-            f'--units tension=mN; if they are {counts}, the design file has to have '
-            'cable_l.gain and cable_s.gain'
+            'the weight of the unit: if they are mN or gf, say so, tension_l [mN] or '
+            '--units tension=mN; if they are the counts of an amplifier, the design file has to '
+            'have cable_l.gain and cable_s.gain'
         )
     total = recording.tension_l + recording.tension_s
     total = total[np.isfinite(total) & (total > 0.0)]

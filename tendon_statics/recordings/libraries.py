@@ -14,7 +14,7 @@ def needed(*modules: str, purpose: str) -> tuple[Any, ...]:
     Raises
     ------
     RecordingError
-        If one is not installed, or does not fit what is; the text says what to install.
+        If one is not installed, or does not fit the rest; the text says what to install.
     """
     try:
         return tuple(import_module(module) for module in modules)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from ..physics import Calibration, design_parameters
+from ..physics import Calibration
+from ..physics.calibration.parameters import fit_parameters
 
 FACTOR = 10.0
-"""By which a fitted value may differ from the start, which is a drawing or a weighing"""
+"""Factor by which a fitted value may differ from the start, which was drawn or weighed"""
 
 AT_END = 1e-6
-"""Share of its range within which a value is at the end of it"""
+"""Share of the range within which a value counts as at its end"""
 
 MOST_FRICTION = 3.0
-"""Above which no dry pair of materials of a joint is"""
+"""Friction coefficient that no dry pair of joint materials exceeds"""
 
 
 def objections(calibration: Calibration) -> list[str]:
@@ -21,7 +22,7 @@ def objections(calibration: Calibration) -> list[str]:
     One that is an order of magnitude from the drawing, or a friction that no material has, is
     what samples give that were not slipping, or are in another unit.
     """
-    ranges = {parameter.name: parameter for parameter in design_parameters()}
+    ranges = {parameter.name: parameter for parameter in fit_parameters()}
     found = []
     for fitted in calibration.parameters:
         if fitted.value is None:

@@ -70,7 +70,7 @@ class Recording:
     """Along Z"""
 
     def __post_init__(self) -> None:
-        """Take whatever NumPy makes an array of.
+        """Take whatever NumPy can make an array of.
 
         Raises
         ------

@@ -7,10 +7,10 @@ import numpy as np
 from .recording import Floats, Recording
 
 FEW = 30
-"""Samples of which nobody can tell whether they follow each other"""
+"""Samples that are too few to tell whether they follow each other"""
 
 MANY = 500
-"""Samples which nobody has listed by hand"""
+"""Samples that are too many to have been listed by hand"""
 
 SMOOTH = 0.4
 """Von Neumann's ratio below which values follow each other: their mean squared step by twice

@@ -19,7 +19,7 @@ class NamedValues(NamedTuple):
 
     @property
     def is_foreign(self) -> bool:
-        """Whether the message is about neither cable, so that it is none of ours."""
+        """Whether the message is about neither cable, and so meant for others."""
         return self == (None, None, None)
 
 

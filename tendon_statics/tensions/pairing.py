@@ -20,7 +20,7 @@ class Single(NamedTuple):
     """ns"""
     value: float
     source: Any = None
-    """Whatever is to be found again in the pair"""
+    """Whatever the pair should carry along"""
 
 
 class Pairing:
@@ -51,7 +51,7 @@ class Pairing:
     def take(self, cable: int, single: Single) -> None:
         """Take a value of cable 0 (l) or 1 (s)."""
         waiting = self._waiting[cable]
-        while waiting and waiting[-1].time >= single.time:  # The order has begun anew.
+        while waiting and waiting[-1].time >= single.time:  # The stream has started over.
             self._drop_first(cable)
         waiting.append(single)
         if len(waiting) > MOST_WAITING:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from ..physics.errors import TendonStaticsError
 
 FEWEST = 20
-"""Readings of a cable of which a mean and its scatter are told"""
+"""Readings of a cable that are enough for a mean and its scatter"""
 
 STILL = 3.0
 """Standard deviations of the stated noise within which a slack cable's readings scatter, and

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, ClassVar
 
-from builtin_interfaces.msg import Time
+from builtin_interfaces.msg import Time as Stamp
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from estimator_client import ARRAY, EstimatorClient
 from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
@@ -18,6 +18,7 @@ from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParametersA
 from rclpy.context import Context
 from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.qos import QoSProfile
+from rclpy.time import Time
 from ros_programs import Program, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Header
@@ -57,12 +58,15 @@ class Listener(EstimatorClient):
         self._tension_source = tension_source
         self.diagnostics: list[DiagnosticStatus] = []
         self.measured_bend_angle = self.create_publisher(Float64, 'measured_bend_angle', 10)
+        self._reported: list[int] = []  # when each status was, in ns
         self.create_subscription(
-            DiagnosticArray,
-            '/diagnostics',
-            lambda message: self.diagnostics.extend(message.status),
-            QoSProfile(depth=5000),
+            DiagnosticArray, '/diagnostics', self._keep_report, QoSProfile(depth=5000)
         )
+
+    def _keep_report(self, message: DiagnosticArray) -> None:
+        time = Time.from_msg(message.header.stamp).nanoseconds
+        self.diagnostics.extend(message.status)
+        self._reported.extend(time for _ in message.status)
 
     @contextmanager
     def estimator(self, *ros_arguments: str, greet: bool = True) -> Iterator[Program]:
@@ -119,20 +123,31 @@ class Listener(EstimatorClient):
     ) -> DiagnosticStatus:
         """Wait for a status of a level whose message has these parts.
 
-        It is the first after the number `since` of those that have come; of those to come, if
-        that is not given.
+        It is the first after the number `since` of those that have come; of those made from now
+        on, if that is not given.
         """
-        begin = len(self.diagnostics) if since is None else since
+        now = self.get_clock().now().nanoseconds
 
         def newest() -> list[DiagnosticStatus]:
+            statuses = self.diagnostics[since:] if since is not None else self._made_after(now)
             return [
                 status
-                for status in self.diagnostics[begin:]
+                for status in statuses
                 if status.level == level and all(part in status.message for part in parts)
             ]
 
         wait_for(f'a status with {parts}', lambda: bool(newest()))
         return newest()[0]
+
+    def report(self) -> DiagnosticStatus:
+        """Wait for a report that is made from now on; others may still be on their way."""
+        now = self.get_clock().now().nanoseconds
+        wait_for('a report', lambda: bool(self._made_after(now)))
+        return self._made_after(now)[0]
+
+    def _made_after(self, time: int) -> list[DiagnosticStatus]:
+        pairs = zip(self._reported, self.diagnostics, strict=False)
+        return [status for reported, status in pairs if reported > time]
 
     def count(self, key: str) -> int:
         """Return a count of the newest report on ``/diagnostics``."""
@@ -143,7 +158,7 @@ class Listener(EstimatorClient):
         """Wait until a node is known by name, which is later than its topics are."""
         wait_for(name, lambda: (name, namespace) in self.get_node_names_and_namespaces())
 
-    def publish(self, *data: float, stamp: Time | None = None) -> None:
+    def publish(self, *data: float, stamp: Stamp | None = None) -> None:
         """Publish one reading; unless it is an array, stamped with the present time or `stamp`."""
         values = [float(value) for value in data]
         if self._tension_source == 'array':

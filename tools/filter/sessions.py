@@ -134,8 +134,10 @@ def _drive(
     while sum(map(len, parts)) < count:
         level = _level(design, weak, first, last, random)
         longest = 2.0 if program == 'ramps' else 0.05
-        way = random.uniform(0.15 * longest, longest) if program == 'ramps' else random.uniform(
-            0.01, longest
+        way = (
+            random.uniform(0.15 * longest, longest)
+            if program == 'ramps'
+            else random.uniform(0.01, longest)
         )
         steps = max(1, int(way * rate))
         parts.append(now + (level - now) * np.arange(1, steps + 1) / steps)

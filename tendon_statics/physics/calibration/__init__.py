@@ -6,7 +6,18 @@ what the data do not tell, `comparison` which contact law they speak for, and `r
 given back.
 """
 
+from .comparison import compare_laws
 from .fit import DEFAULT_FIT, calibrate
+from .law_comparison import LawComparison
 from .result import HELD, SLIPPING, Calibration, FittedParameter
 
-__all__ = ['DEFAULT_FIT', 'HELD', 'SLIPPING', 'Calibration', 'FittedParameter', 'calibrate']
+__all__ = [
+    'DEFAULT_FIT',
+    'HELD',
+    'SLIPPING',
+    'Calibration',
+    'FittedParameter',
+    'LawComparison',
+    'calibrate',
+    'compare_laws',
+]

@@ -19,7 +19,7 @@ from .parameters import Model, ParameterSpace, checked_fit
 from .problem import Problem
 from .result import Calibration
 from .samples import SortedSamples, as_floats
-from .summary import calibration_of
+from .summary import AS_GOOD, calibration_of
 
 DEFAULT_FIT = ('mass', 'cable_offset', 'friction_coefficient')
 
@@ -28,8 +28,11 @@ BEND_ANGLE_STDDEVS = (0.0, 1.0)
 PRESSURE_STDDEVS = (1e-9, 1e15)
 """Ranges of standard deviations that are taken, in N, rad and Pa"""
 
+NEAR = 0.05
+"""Relative difference of all values up to which two solutions are one"""
+
 FRICTIONS = (0.1, 0.2, 0.35, 0.5, 0.75, 1.0, 1.5, 2.2)
-"""Friction coefficients that are tried as starts for a law that the start design does not have"""
+"""Friction coefficients that are tried as starts beside the design's"""
 
 
 def calibrate(
@@ -74,8 +77,7 @@ def calibrate(
     load : Load
         What acts beside the cables; what `data` has of base tilt and tip force comes first.
     contact_law : str, optional
-        Law to fit instead of the design's. As the design's friction coefficient is not one of
-        that law, the search then starts from others too.
+        Law to fit instead of the design's.
 
     Raises
     ------
@@ -98,8 +100,6 @@ def calibrate(
         design = dataclasses.replace(design, contact_law=contact_law)
     samples = SortedSamples(design, data, noise, load)
     space = ParameterSpace(Model(design), parameters, samples)
-    if contact_law is None:
-        return calibration_of(Problem(space, samples).settle())
     best, *others = settled(space, samples)
     return calibration_of(best, others)
 
@@ -126,16 +126,27 @@ def settled(space: ParameterSpace, samples: SortedSamples) -> list[Problem]:
         walls = np.concatenate([[math.inf], losses, [math.inf]])
         is_valley = np.isfinite(losses) & (losses <= walls[:-2]) & (losses < walls[2:])
         problems += [tried[place] for place in np.flatnonzero(is_valley)]
-    found: list[Problem] = []
+    explored: list[Problem] = []
     failure = None
     for problem in problems:
         try:
-            problem.settle()
+            if len(problems) > 1:
+                problem.search(roughly=True)
         except CalibrationError as error:
             failure = failure or error
             continue
-        if not any(np.allclose(problem.scaled, other.scaled, rtol=1e-4) for other in found):
-            found.append(problem)
+        if not any(np.allclose(problem.scaled, other.scaled, rtol=NEAR) for other in explored):
+            explored.append(problem)
+    explored.sort(key=Problem.loss)
+    found: list[Problem] = []
+    for problem in explored:
+        # With more noise than stated, losses are smaller and nearer to each other.
+        if found and problem.loss() > found[0].noise_scale ** 2 * (found[0].loss() + AS_GOOD):
+            break
+        try:
+            found.append(problem.settle())
+        except CalibrationError as error:
+            failure = failure or error
     if failure is not None and not found:
         raise failure
     return sorted(found, key=lambda problem: (round(problem.noise_scale, 2), problem.loss()))

@@ -86,8 +86,13 @@ class Problem:
             'fit fewer parameters, or look for wrong states'
         )
 
-    def search(self) -> None:
+    def search(self, *, roughly: bool = False) -> None:
         """Find the best values for the noise as it is taken to be.
+
+        Parameters
+        ----------
+        roughly : bool
+            Whether to stop where the search hardly gains any more, as for a comparison of starts.
 
         Raises
         ------
@@ -109,8 +114,8 @@ class Problem:
             bounds=self.space.bounds,
             loss='soft_l1',
             f_scale=LOSS_SCALE,
-            xtol=1e-10,
-            ftol=1e-12,
+            xtol=1e-5 if roughly else 1e-10,
+            ftol=1e-4 if roughly else 1e-12,
             gtol=1e-10,
             max_nfev=MOST_DESIGNS,
         )
@@ -166,6 +171,8 @@ class Problem:
         return np.concatenate([distance.standardised, distance.pressure_standardised[measured]])
 
     def _hold_excesses(self, scaled: Floats) -> Floats:
+        if not self.samples.counts['holds']:
+            return np.zeros(0)
         held = self._distance(scaled, self.samples.held).standardised
         return self.samples.hold_excesses(held, self.noise_scale)
 

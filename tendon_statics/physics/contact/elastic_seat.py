@@ -39,7 +39,7 @@ class ElasticSeatLaw(ContactLaw):
             )
         zone = seat_constants(start_angle, end_angle)
         self._zone = zone
-        self._coupling = zone.axial_friction * zone.transverse_friction
+        self._coupling = zone.coupling
         self._tilting = friction_coefficient * zone.axial_friction
         self._gain = (
             friction_coefficient * zone.lever / (1.0 + self._coupling * friction_coefficient**2)

@@ -24,6 +24,11 @@ class SeatConstants(NamedTuple):
     mean_pressure: float
     """⟨cos t⟩ / ⟨cos² t⟩: mean pressure for that of a flat seat under the same force"""
 
+    @property
+    def coupling(self) -> float:
+        """C, by which friction relieves the seat along the axis."""
+        return self.axial_friction * self.transverse_friction
+
 
 @lru_cache(maxsize=256)
 def seat_constants(start_angle: float, end_angle: float) -> SeatConstants:

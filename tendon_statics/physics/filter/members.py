@@ -111,7 +111,10 @@ def _pushed(slips: Slip, angles: Floats, stop: float, sides: Floats) -> Floats |
         )
         if not np.all((greatest < 0.0) | np.isnan(greatest)):
             return None
-        ends.append(side * _root_of_falling(facing, np.broadcast_to(side * angles, greatest.shape), low, stop))
+        ends.append(
+            side
+            * _root_of_falling(facing, np.broadcast_to(side * angles, greatest.shape), low, stop)
+        )
     path = [angles]
     for row in range(len(ends[0])):
         angles = path[-1]

@@ -218,7 +218,12 @@ class StickSlipFilter:
             last = part_of(slips, settled - 1)
             self._history.append(
                 FilterState(
-                    *(self._design, sample.load, sample.time, Tensions(*estimate.value[:, settled - 1])),
+                    *(
+                        self._design,
+                        sample.load,
+                        sample.time,
+                        Tensions(*estimate.value[:, settled - 1]),
+                    ),
                     *(committed, committed != self._committed, last, False, self._assured),
                 )
             )

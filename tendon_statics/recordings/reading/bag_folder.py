@@ -75,7 +75,7 @@ def _by_manifest(folder: Path, manifest: Path, there: list[Path]) -> BagFolder:
         why = str(error) if isinstance(error, YamlFileError) else 'it is not that of a bag'
         text = f'{METADATA}: {why}; the files are taken by the numbers in them'
         return BagFolder(there, damage=[text])
-    if not names:  # as of a recorder that did not end well
+    if not names:  # as left by a recorder that was killed
         text = f'{METADATA} lists no files; they are taken by the numbers in them'
         return BagFolder(there, damage=[text])
     bag = BagFolder([], counts)
@@ -111,8 +111,8 @@ def _counts(content: Mapping[str, Any]) -> dict[str, int]:
 def _found(folder: Path, name: str) -> Path | None:
     """Return a file of the folder that the manifest lists, packed or unpacked since.
 
-    Early versions wrote the folder's own name before that of the file. A file elsewhere is none
-    of the bag's.
+    Early versions wrote the folder's own name before that of the file. A file elsewhere is not
+    part of the bag.
     """
     listed = folder / PurePosixPath(name).name
     bare = _without_compression(listed)

@@ -1,4 +1,4 @@
-"""A message as it stands in a bag's file, whatever the kind of that."""
+"""A message as it stands in the file of a bag, whatever the format."""
 
 from __future__ import annotations
 

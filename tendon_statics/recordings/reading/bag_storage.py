@@ -56,7 +56,7 @@ class Messages:
         """In the order of the bag"""
         self.damage: list[str] = []
         self.notes: list[str] = []
-        """What else is to be known of it"""
+        """What else the user should know of it"""
 
 
 def read_messages(path: Path, topics: Collection[str], progress: Progress = unseen) -> Messages:
@@ -85,7 +85,7 @@ def read_messages(path: Path, topics: Collection[str], progress: Progress = unse
 
 
 def without_copies(bag: Messages, topic: str, messages: Sequence[Message]) -> list[Message]:
-    """Leave out what was recorded more than once: all of it is alike, and its stamp, or its time.
+    """Leave out what was recorded more than once: the same content at the same stamp, or time.
 
     Without stamps that may be by chance, unless it is so of all of them.
     """
@@ -108,7 +108,7 @@ def without_copies(bag: Messages, topic: str, messages: Sequence[Message]) -> li
 
 
 def _missing(expected: dict[str, int], counts: Counter[str]) -> Iterator[str]:
-    """Compare how many messages the manifest counts with those that there are."""
+    """Compare the number of messages in the manifest with those that were found."""
     for topic, count in expected.items():
         there = counts[topic] if topic else sum(counts.values())
         if there != count:

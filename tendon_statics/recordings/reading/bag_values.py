@@ -101,7 +101,7 @@ def cables_in(topics: BagTopics) -> Callable[[Message], NamedValues]:
 def _of_interface(content: Any, cables: Sequence[str], interface: str) -> NamedValues:
     """Values of one interface in a ``DynamicJointState``.
 
-    A joint that does not have it is as one that is not named.
+    A joint without it is treated like one that is not named.
     """
     of_joints = cable_values(content.joint_names, content.interface_values, cables, 'interface')
     if of_joints.fault is not None:

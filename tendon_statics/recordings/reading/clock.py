@@ -19,6 +19,10 @@ LATE = 500_000_000
 FAR = 10_000_000_000
 """ns by which the delays of two topics with stamps may differ, as an image takes its time"""
 
+MOST_REPEATED = 0.6
+"""Share of messages with the stamp of that before; two in a row have one where each cable has its
+own message"""
+
 LATE_IN_A_ROW = 3
 """Messages that may come late together; of more, the clock was set back"""
 
@@ -59,9 +63,24 @@ class Stamped(NamedTuple):
             found.append(f'{without} of {count} messages on {topic} have no stamp')
         if negative:
             found.append(f'{negative} of {count} stamps on {topic} are before 1970')
+        repeated = int((np.diff(self.stamps) == 0).sum())
+        if repeated > MOST_REPEATED * count and not without:
+            found.append(f'{repeated} of {count} stamps on {topic} are that of the message before')
         if not self._come_late:
             found += self.steps_back(topic)
         return found
+
+    def jumps(self, topic: str) -> list[str]:
+        """Say where sound stamps jump ahead and the times of recording do not."""
+        ahead = np.diff(self.stamps) - np.diff(self.log_times)
+        jumps = np.flatnonzero(ahead > LATE)
+        if not len(jumps):
+            return []
+        more = f', and at {len(jumps) - 1} more' if len(jumps) > 1 else ''
+        return [
+            f'the stamps on {topic} jump ahead by {_seconds(ahead[jumps[0]])} s at message '
+            f'{jumps[0] + 2} of {len(self.stamps)}{more}, and the times of recording do not'
+        ]
 
     def steps_back(self, topic: str) -> list[str]:
         """Say where the stamps go back."""
@@ -130,7 +149,7 @@ def common_clock(topics: Mapping[str, Stamped], clock: str, max_skew: int) -> Cl
             )
             continue
         by_stamp.append(topic)
-        notes += objections
+        notes += objections or times.jumps(topic)
         if not objections and times.steps_back(topic):
             late.add(topic)
             (place,) = times.steps_back(topic)

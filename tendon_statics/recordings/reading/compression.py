@@ -17,7 +17,7 @@ ENDINGS = {'.zstd': 'zstd', '.zst': 'zstd', '.lz4': 'lz4'}
 
 ZSTD_MAGIC = b'\x28\xb5\x2f\xfd'
 LZ4_MAGIC = b'\x04\x22\x4d\x18'
-"""What a message begins with that was compressed by itself; CDR never does"""
+"""How a message that was compressed on its own begins; CDR never begins so"""
 
 BLOCK = 1 << 16
 """Bytes that are decompressed at once"""

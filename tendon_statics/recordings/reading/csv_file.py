@@ -22,7 +22,7 @@ from .time_column import is_iso, times_of, times_of_iso
 LINE_ENDS = (b'\n', b'\r')
 
 MISSING = {'', 'na', 'n/a', '#n/a', '<na>', 'null', 'none', '-nan', '-1.#ind', '1.#qnan'}
-"""What programs write for no number, beside nan"""
+"""What programs write for a missing number, besides nan"""
 
 MOST_SHOWN = 80
 """Characters of a damaged line that are shown"""

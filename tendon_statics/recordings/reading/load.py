@@ -34,9 +34,9 @@ def load_recording(
     path : str or Path
         Its ending says what it is.
     topics : BagTopics, optional
-        Of a bag; of a table they are not looked at.
+        Of a bag; ignored for a table.
     table : TableOptions, optional
-        Of a table, likewise.
+        Of a table; ignored for a bag.
     progress : callable
         A `Progress`, to show how far the reading is.
 

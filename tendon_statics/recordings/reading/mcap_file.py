@@ -52,7 +52,7 @@ class _McapFile:
     def __init__(self, file: IO[bytes], types: dict[str, str], damage: list[str]) -> None:
         self._library, self._kinds = needed('mcap.stream_reader', 'mcap.records', purpose=PURPOSE)
         self._file = file
-        # Whatever the content is, the library is not to ask for more memory than the file has.
+        # Whatever the content, the library must not ask for more memory than the file is long.
         self._size = os.fstat(file.fileno()).st_size
         self._types = types
         self._damage = damage

@@ -23,7 +23,7 @@ def ros1_records(path: Path, types: dict[str, str], damage: list[str]) -> Iterat
     Raises
     ------
     RecordingError
-        If its index cannot be read, as that of a recorder that did not end well.
+        If its index cannot be read, as after a recorder was killed.
     """
     (rosbag1,) = needed('rosbags.rosbag1', purpose=PURPOSE)
     path.open('rb').close()  # for the system's own reason, if it cannot be

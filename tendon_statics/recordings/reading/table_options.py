@@ -10,7 +10,7 @@ from ..errors import RecordingError
 from ..recording import QUANTITIES
 from .units import UNITS
 
-SEPARATORS = {'comma': ',', 'semicolon': ';', 'tab': '\t', 'space': ' ', 'bar': '|'}
+SEPARATORS = {'comma': ',', 'semicolon': ';', 'tab': '\t', 'bar': '|', 'space': ' '}
 """Name of a separator, as an option has it → character; one space stands for any number"""
 
 PAIRS = {'tension': ('tension_l', 'tension_s'), 'tip_force': ('tip_force_x', 'tip_force_z')}

@@ -15,7 +15,7 @@ from .text_lines import Line, TextForm, separator_name, split
 from .units import UNITS, split_title
 
 COMMENTS = ('#', '%')
-"""What a line begins with that is left alone, unless it has the titles"""
+"""How a line begins that is ignored, unless it has the titles"""
 
 LOOKED_AT = 100
 """Rows that tell how numbers are written"""
@@ -187,8 +187,13 @@ def _decimal(
     places = [column.place for column in columns.numbers.values()]
     if columns.time is not None:
         places.append(columns.time.place)
-    with_comma = with_point = longer = 0
-    for _, line in rows[:LOOKED_AT]:
+    with_comma = with_point = looked_at = longer = 0
+    for _, line in rows:
+        if with_comma + with_point + (separator == ',') * looked_at >= LOOKED_AT:
+            break
+        if separator != ',' and b',' not in line and b'.' not in line:
+            continue  # whole numbers, which tell nothing
+        looked_at += 1
         try:
             fields = split(line, separator)
         except (ValueError, csv.Error):
@@ -197,7 +202,7 @@ def _decimal(
         values = [fields[place] for place in places if place < len(fields)]
         with_comma += any(_DECIMAL_COMMA.fullmatch(value) is not None for value in values)
         with_point += any(_DECIMAL_POINT.fullmatch(value) is not None for value in values)
-    if separator == ',' and longer and longer == len(rows[:LOOKED_AT]):
+    if separator == ',' and longer and longer == looked_at:
         raise RecordingError(
             'commas separate both its columns and its decimals, and cannot be told apart: '
             'write it with semicolons or tabs'

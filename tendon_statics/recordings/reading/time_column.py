@@ -13,8 +13,8 @@ from ..recording import Floats
 from .units import UNITS, split_title
 
 TITLES = ('%time', 'timestamp', 'stamp', 'header.stamp', 'field.header.stamp', 't', '__time')
-"""What is a time beside ``time``, of several the first; a leading path and a unit after an
-underscore or in brackets make no difference"""
+"""Titles of times besides ``time``, of which the first that is there counts; a leading path, and a
+unit after an underscore or in brackets, make no difference"""
 
 _SECONDS = re.compile(r'(?P<path>(?:.*[./])?stamp)[./](?:sec|secs)', re.IGNORECASE)
 _UNIT = re.compile(r'(?P<name>.+?)\s*(?:_|\[|\()(?P<unit>s|ms|us|ns)[\])]?', re.IGNORECASE)

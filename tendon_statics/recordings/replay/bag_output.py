@@ -26,7 +26,7 @@ LATEST = 2**63 - 1
 """ns since 1970; it is in the year 2262"""
 
 BEYOND = 1e10
-"""s; from wherever in a bag's time, that is outside of it"""
+"""s; that far from any time that a bag can hold is outside of it"""
 
 
 class _Series(NamedTuple):

@@ -42,7 +42,7 @@ class Replay(NamedTuple):
 
     recording: Recording
     load: Load
-    """What of that which acts beside the cables was not recorded"""
+    """What acts beside the cables, as far as it was not recorded"""
     estimation: str
     regime: NDArray[np.str_]
     bend_angle: Floats
@@ -128,11 +128,11 @@ def replay(
         If the initial angle is not a number or lies beyond the stop.
     RecordingError
         If a unit is to be tracked through a recording in which time goes back.
-    ValueError
+    TensionError
         If the deviation is not finite and above 0.
     """
     if not 0.0 < tension_stddev < math.inf:
-        raise ValueError(
+        raise TensionError(
             f'tension_stddev is {tension_stddev!r} N, allowed is a finite number above 0'
         )
     check_bend_angle(design, initial_bend_angle)
