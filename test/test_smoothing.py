@@ -32,7 +32,7 @@ def test_the_noise_of_a_rest_shrinks_by_the_root_of_the_samples():
 
 @pytest.mark.parametrize('age', [0, 10, 75])
 def test_a_ramp_is_followed_without_lag(age):
-    truth, value, error = estimate(np.linspace(0.0, 3.0, 1500), age)
+    truth, value, _ = estimate(np.linspace(0.0, 3.0, 1500), age)
     assert abs(np.mean(value - truth)) < 0.3 * NOISE
     assert np.sqrt(np.mean((value - truth) ** 2)) < 0.9 * NOISE
 

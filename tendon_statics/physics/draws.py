@@ -52,6 +52,6 @@ def draw_designs(
             for name, by in zip(names, change.tolist(), strict=True)
         }
         try:
-            yield dataclasses.replace(design, **drawn)  # type: ignore[arg-type]
+            yield dataclasses.replace(design, **drawn)
         except DesignError:  # together they are no design
             yield design

@@ -121,7 +121,8 @@ class SlipAngleDistribution:
         weak, strong = sorted(self._tensions)
         total = self._slip.total
         spare = min(weak, total * self._slip.load.excess / math.sqrt(2.0))
-        return min((strong - weak) / math.sqrt(2.0), spare) > FAR * self._stddev
+        surest: float = min((strong - weak) / math.sqrt(2.0), spare)
+        return surest > FAR * self._stddev
 
     def probability(self, regime: Regime | str) -> float:
         """Return the probability of what `solve` would answer without noise.
@@ -198,21 +199,21 @@ class SlipAngleDistribution:
         if not self.is_closed_form:
             return self._drawn.interval(level)
         low, high = self._before(0.0), self._before(self._stop)
-        ends = [
-            self.quantile(low + share * (high - low))
-            for share in (0.5 * (1.0 - level), 0.5 * (1.0 + level))
-            if 0.0 < low + share * (high - low) < 1.0
-        ]
-        if len(ends) < 2 or None in ends:
+        shares = (0.5 * (1.0 - level), 0.5 * (1.0 + level))
+        levels = [low + share * (high - low) for share in shares]
+        if not 0.0 < levels[0] < levels[1] < 1.0:
             return None
-        return min(ends), max(ends)  # type: ignore[type-var]
+        one, other = map(self.quantile, levels)
+        if one is None or other is None:
+            return None
+        return min(one, other), max(one, other)
 
     def _before(self, ahead: float) -> float:
         """F at an angle ahead in rad."""
         return _NORMAL.cdf(self._score(ahead))
 
     def _score(self, ahead: float) -> float:
-        """g / σ_g, or its negative where g falls, at an angle ahead in rad."""
+        """Return g / σ_g, or its negative where g falls, at an angle ahead in rad."""
         slip = self._slip
         point = slip.at(ahead)
         by_tensions = slip_by_tensions(slip, point, self._design.relative_lever)
@@ -275,18 +276,18 @@ class _Drawn:
         if uncertainty is not None:
             designs = draw_designs(design, uncertainty, normals[2:])
             answers = [
-                solve_batch(one, *pair[:, None], load)
+                solve_batch(one, pair[:1], pair[1:], load)
                 for one, pair in zip(designs, pairs.T, strict=True)
             ]
             regimes = np.concatenate([answer.regime for answer in answers])
             angles = np.concatenate([answer.bend_angle for answer in answers])
         else:
-            batch = solve_batch(design, *pairs, load)
+            batch = solve_batch(design, pairs[0], pairs[1], load)
             regimes, angles = batch.regime, batch.bend_angle
         self._regimes = regimes
         self._codes = REGIME_CODES
         at_root = regimes == REGIME_CODES[Regime.EQUILIBRIUM]
-        self._angles = sorted(angles[at_root].tolist())
+        self._angles: list[float] = sorted(angles[at_root].tolist())
         driven = regimes == REGIME_CODES[Regime.DRIVEN_TO_STOP]
         self._driven = {side: int(np.sum(driven & (side * angles > 0.0))) for side in (1.0, -1.0)}
         self._of_side = {

@@ -1,4 +1,4 @@
-"""Measure the filter beside the tracker: ``python -m filter`` in tools/, or `make measure-filter`."""
+"""Measure the filter beside the tracker: `make measure-filter`, or ``python -m filter``."""
 
 from __future__ import annotations
 

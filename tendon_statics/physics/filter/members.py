@@ -196,7 +196,8 @@ def _landings(
         found = one.brackets(float(start[index]), stop)
         if found:
             landing[index], _ = refine(one, found[0])
-    return side[which] * landing
+    landings: Floats = side[which] * landing
+    return landings
 
 
 def _slope_bounds(slips: Slip, start: Floats, stop: float) -> tuple[Floats, Floats]:

@@ -42,6 +42,7 @@ class FilterState:
         load: Load,
         time: float,
         tensions: Tensions,
+        *,
         angles: Floats,
         moved: NDArray[np.bool_],
         slips: Slip | None,
@@ -64,7 +65,14 @@ class FilterState:
     ) -> FilterState:
         """A state of which nothing is known, since a cable is slack."""
         nobody = np.empty(0)
-        return cls(design, load, time, tensions, nobody, nobody > 0.0, None, True, False)
+        return cls(
+            *(design, load, time, tensions),
+            angles=nobody,
+            moved=nobody > 0.0,
+            slips=None,
+            provisional=True,
+            angle_assured=False,
+        )
 
     @cached_property
     def members(self) -> Floats:

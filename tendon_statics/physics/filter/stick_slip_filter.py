@@ -212,28 +212,37 @@ class StickSlipFilter:
 
         committed, _ = follow(self._design, part_of(slips, slice(settled)), self._committed)
         newest, moved = follow(self._design, part_of(slips, slice(settled, None)), committed)
-        for index in range(settled):
+        for _ in range(settled):
             sample = self._samples.popleft()
         if settled:
-            last = part_of(slips, settled - 1)
             self._history.append(
                 FilterState(
-                    *(
-                        self._design,
-                        sample.load,
-                        sample.time,
-                        Tensions(*estimate.value[:, settled - 1]),
-                    ),
-                    *(committed, committed != self._committed, last, False, self._assured),
+                    self._design,
+                    sample.load,
+                    sample.time,
+                    Tensions(*estimate.value[:, settled - 1].tolist()),
+                    angles=committed,
+                    moved=committed != self._committed,
+                    slips=part_of(slips, settled - 1),
+                    provisional=False,
+                    angle_assured=self._assured,
                 )
             )
         self._committed, self._newest = committed, newest
+        last = self._samples[-1]
         state = FilterState(
-            *(self._design, self._samples[-1].load, self._samples[-1].time, tensions),
-            *(newest, moved, part_of(slips, -1), True, self._assured),
+            self._design,
+            last.load,
+            last.time,
+            tensions,
+            angles=newest,
+            moved=moved,
+            slips=part_of(slips, -1),
+            provisional=True,
+            angle_assured=self._assured,
         )
         if not self._assured and state.regime_probabilities[Regime.DRIVEN_TO_STOP] > SURE:
-            self._assured = True
+            self._assured = state.angle_assured = True
         return state
 
     def _dead_loads(self, ages: list[int]) -> DeadLoad:
@@ -295,8 +304,8 @@ class StickSlipFilter:
 
     def _forget_samples(self) -> None:
         self._samples: deque[_Sample] = deque()  # those that are not committed
-        self._tensions = np.zeros((2, 4 * REACH))
-        self._end = 0
+        self._tensions: Floats = np.zeros((2, 4 * REACH))
+        self._end: int = 0  # of what there is of them
 
 
 _TOWARDS_S = np.array([-1.0, 1.0])[:, None, None]
