@@ -14,6 +14,7 @@ Samples are counted, not timed: they are taken to follow each other at a steady 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -130,3 +131,35 @@ class Windows:
             np.take_along_axis(value, best, -1)[..., 0] + base,
             stddev * np.take_along_axis(error, best, -1)[..., 0],
         )
+
+
+class SampleBuffer:
+    """The newest samples of some signals, in a row.
+
+    Parameters
+    ----------
+    signals : int
+        How many signals there are.
+    """
+
+    def __init__(self, signals: int) -> None:
+        self._values: Floats = np.zeros((signals, 4 * REACH))
+        self._end = 0
+
+    def __len__(self) -> int:
+        return self._end
+
+    def append(self, sample: Sequence[float], kept: int) -> None:
+        """Append a sample of each signal; of those before it at least so many are kept."""
+        if self._end == self._values.shape[1]:
+            kept = min(kept, self._end)
+            if 2 * kept > self._end:
+                self._values = np.pad(self._values, ((0, 0), (0, self._end)))
+            self._values[:, :kept] = self._values[:, self._end - kept : self._end]
+            self._end = kept
+        self._values[:, self._end] = sample
+        self._end += 1
+
+    def newest(self, count: int) -> Floats:
+        """Return the newest samples, shape ``(signals, count)``."""
+        return self._values[:, self._end - count : self._end]

@@ -17,7 +17,7 @@ from ..load import UPRIGHT, DeadLoad, Load
 from ..state import Regime
 from ..tensions import Tensions, check_tensions, taut_slip
 from .members import follow, part_of, slips_of
-from .smoothing import REACH, Windows
+from .smoothing import REACH, SampleBuffer, Windows
 from .state import FilterState
 
 Floats = NDArray[np.float64]
@@ -176,24 +176,13 @@ class StickSlipFilter:
             # What was before cannot tell what the tensions are now.
             self._committed = self._newest
             self._forget_samples()
-        self._take(tensions, _Sample(time, load, load.on(self._design)))
+        self._buffer.append(tensions, REACH + len(self._samples))
+        self._samples.append(_Sample(time, load, load.on(self._design)))
         settled = sum(sample.time <= time - self._lag for sample in self._samples)
         ages = [*range(len(self._samples) - 1, len(self._samples) - 1 - settled, -1)]
         waiting = len(self._samples) - settled
         ages += [age for age in self._path(waiting) if age < waiting]
         return self._follow(tensions, settled, ages)
-
-    def _take(self, tensions: Tensions, sample: _Sample) -> None:
-        """Append a sample to what the windows see."""
-        if self._end == self._tensions.shape[1]:
-            kept = REACH + len(self._samples)
-            if 2 * kept > self._tensions.shape[1]:
-                self._tensions = np.pad(self._tensions, ((0, 0), (0, self._end)))
-            self._tensions[:, :kept] = self._tensions[:, self._end - kept : self._end]
-            self._end = kept
-        self._tensions[:, self._end] = tensions
-        self._end += 1
-        self._samples.append(sample)
 
     @staticmethod
     def _path(waiting: int) -> list[int]:
@@ -202,10 +191,9 @@ class StickSlipFilter:
 
     def _follow(self, tensions: Tensions, settled: int, ages: list[int]) -> FilterState:
         """Commit the samples that are settled, and follow the rest from there."""
-        count = min(self._end, REACH + ages[0])
+        count = min(len(self._buffer), REACH + ages[0])
         windows = self._windows_at(count, tuple(ages))
-        seen = self._tensions[:, self._end - count : self._end]
-        estimate = windows.estimate(seen, self._stddev)
+        estimate = windows.estimate(self._buffer.newest(count), self._stddev)
         errors = estimate.error[:, :, None] * (CAUTION * self._scores)
         paths = estimate.value[:, :, None] + errors * _TOWARDS_S - self._biases[:, None, :]
         slips = slips_of(self._design, self._dead_loads(ages), paths)
@@ -304,8 +292,7 @@ class StickSlipFilter:
 
     def _forget_samples(self) -> None:
         self._samples: deque[_Sample] = deque()  # those that are not committed
-        self._tensions: Floats = np.zeros((2, 4 * REACH))
-        self._end: int = 0  # of what there is of them
+        self._buffer = SampleBuffer(2)
 
 
 _TOWARDS_S = np.array([-1.0, 1.0])[:, None, None]
