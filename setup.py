@@ -43,7 +43,7 @@ setup(
     entry_points={
         'console_scripts': [
             'estimator = tendon_statics.node.program:estimator',
-            'pulley_driver = tendon_statics.node.program:pulley_driver',
+            'pulley_driver = tendon_statics.driver.program:pulley_driver',
             'tendon-statics = tendon_statics.command_line.main:main',
         ],
     },

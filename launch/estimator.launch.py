@@ -8,9 +8,10 @@ from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch_ros.actions import Node
 from launch_ros.utilities import make_namespace_absolute, prefix_namespace
 
-from tendon_statics.joint_names import JointNames, load_joint_names
-from tendon_statics.launch_actions import as_they_are, robot_state_publisher
-from tendon_statics.unit_description import unit_description
+from tendon_statics.launching.actions import as_they_are, robot_state_publisher
+from tendon_statics.launching.base_turn import load_base_turn
+from tendon_statics.launching.joint_names import JointNames, load_joint_names
+from tendon_statics.launching.unit_description import unit_description
 
 
 def generate_launch_description():
@@ -47,13 +48,14 @@ def start_estimator(context):
     # A launch file that includes this one may have pushed a namespace.
     outer = arguments.get('ros_namespace')
     full_namespace = make_namespace_absolute(prefix_namespace(outer, namespace))
-    names = load_joint_names(
-        params_file, f'{full_namespace.rstrip("/")}/estimator', default=JointNames()
-    )
+    node = f'{full_namespace.rstrip("/")}/estimator'
+    names = load_joint_names(params_file, node, default=JointNames())
     actions = []
     # First, since it may be missing, and launch leaves running what it has started by then.
     if arguments['robot_state_publisher'] == 'true':
-        actions.append(robot_state_publisher(unit_description(params_file, names), namespace))
+        turn = load_base_turn(params_file, node)
+        description = unit_description(params_file, names, base_turn=turn)
+        actions.append(robot_state_publisher(description, namespace))
     actions.append(
         Node(
             package='tendon_statics',

@@ -7,9 +7,9 @@ from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch_ros.actions import Node
 
-from tendon_statics.files.rig_file import load_rig
-from tendon_statics.launch_actions import as_they_are, robot_state_publisher
-from tendon_statics.unit_description import unit_description
+from tendon_statics.launching.actions import as_they_are, robot_state_publisher
+from tendon_statics.launching.rig_file import load_rig
+from tendon_statics.launching.unit_description import unit_description
 
 
 def generate_launch_description():
@@ -46,7 +46,9 @@ def start_rig(context):
     if arguments['robot_state_publisher'] == 'true':
         actions += [
             robot_state_publisher(
-                unit_description(joint.design_file, joint.names, unit=f'{joint.namespace}/unit'),
+                unit_description(
+                    joint.design_file, joint.names, f'{joint.namespace}/unit', joint.base_turn
+                ),
                 joint.namespace,
                 joint.joint_state_topic,
             )

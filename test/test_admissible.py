@@ -11,7 +11,12 @@ from hypothesis import strategies as st
 from thoroughness import examples
 
 from tendon_statics import JointDesign, Regime, TensionError, solve
-from tendon_statics.physics import BendAngleError, admissible_angles, slip_margin
+from tendon_statics.physics import (
+    BendAngleError,
+    StickSlipTracker,
+    admissible_angles,
+    slip_margin,
+)
 
 GRID = 801
 
@@ -165,3 +170,14 @@ def test_tensions_outside_the_model_are_refused(tensions):
 def test_an_angle_beyond_the_stop_is_refused(angle):
     with pytest.raises(BendAngleError, match=r'allowed is -0\.523599 to 0\.523599'):
         slip_margin(PRELIMINARY, 1.0, 2.0, angle)
+
+
+@given(cases())
+@examples(100)
+def test_a_result_knows_the_admissible_angles_of_its_tensions(case):
+    design, tension_l, tension_s = case
+    expected = admissible_angles(*case)
+    assert solve(*case).admissible_angles == expected
+    tracked = StickSlipTracker(design, 0.5 * design.max_bend_angle).update(tension_l, tension_s)
+    assert tracked.admissible_angles == expected
+    assert solve(design, 0.0, tension_s).admissible_angles == []

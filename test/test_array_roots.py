@@ -28,7 +28,7 @@ def test_at_the_ends_of_the_range_the_two_have_the_same_bits(case):
     """A last bit that differs would make a root there a matter of chance."""
     rows, slip = both(*case)
     for end in (0.0, case[0].max_bend_angle):
-        assert rows.values(slice(None), end)[0] == slip.value(end)
+        assert rows.probe(slice(None), end)[1] == slip.value(end)
 
 
 def test_values_and_slopes_are_those_of_one_pair_of_every_law():
@@ -38,10 +38,8 @@ def test_values_and_slopes_are_those_of_one_pair_of_every_law():
     for case in itertools.islice(iter(lambda: random_case(draw), None), 100):
         rows, slip = both(case.design, case.tension_l, case.tension_s, case.load)
         angle = 0.37 * case.design.max_bend_angle
-        values, slopes = rows.values_and_slopes(slice(None), np.array([angle]))
-        assert (values[0], slopes[0]) == pytest.approx(
-            slip.value_and_slope(angle), rel=1e-9, abs=1e-12
-        )
+        (_, value, slope, *_) = rows.probe(slice(None), np.array([angle]))[:, 0]
+        assert (value, slope) == pytest.approx(slip.probe(angle)[1:3], rel=1e-9, abs=1e-12)
 
 
 def test_brackets_are_those_of_one_pair():
@@ -52,10 +50,10 @@ def test_brackets_are_those_of_one_pair():
         if found.unresolved[0]:
             continue
         resolved += 1
-        expected = slip.brackets(0.0, case[0].max_bend_angle)
+        expected = slip.brackets(slip.probe(0.0), slip.probe(case[0].max_bend_angle))
         assert found.root_count[0] == len(expected)
         if expected:
-            assert (found.low[0], found.high[0]) == (expected[0].low, expected[0].high)
+            assert [found.low[0, 0], found.high[0, 0]] == [end[0] for end in expected[0]]
     assert resolved >= 290
 
 
@@ -63,11 +61,10 @@ def test_a_root_is_proven_by_a_bracket_of_the_bisections_width():
     tensions = np.ones(200), np.linspace(1.965, 2.045, 200)
     rows = _Rows(_facing_slips(PRELIMINARY, UPRIGHT, *tensions, ()))
     found = array_brackets(rows, 200, 0.0, PRELIMINARY.max_bend_angle)
-    every = np.arange(200)
-    roots = array_refine(rows, every, found.low, found.high)
+    roots = array_refine(rows, found.low, found.high)
     assert not roots.unresolved.any()
     sides = [
-        rows.values(every, roots.places + step)
+        rows.probe(slice(None), roots.places + step)[1]
         for step in (-0.5 * ANGLE_TOLERANCE, 0.5 * ANGLE_TOLERANCE)
     ]
     assert (sides[0] * sides[1] < 0.0).all()
@@ -76,5 +73,6 @@ def test_a_root_is_proven_by_a_bracket_of_the_bisections_width():
 def test_what_is_no_root_is_not_taken_for_one():
     """A bracket over which g does not change sign ends as unresolved."""
     rows = _Rows(_facing_slips(PRELIMINARY, UPRIGHT, np.ones(2), np.array([1.5, 2.5]), ()))
-    roots = array_refine(rows, np.arange(2), np.zeros(2), np.full(2, PRELIMINARY.max_bend_angle))
+    ends = (rows.probe(slice(None), end)[:3] for end in (0.0, PRELIMINARY.max_bend_angle))
+    roots = array_refine(rows, *ends)
     assert roots.unresolved.all()

@@ -2,15 +2,20 @@
 
 import math
 
+import brute
 import numpy as np
 import pytest
 from designs import PRELIMINARY, cases
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from law_sessions import SessionPlan, pressure, slips_of, unit_of
 from slips import TRUTH, slipping_samples
 
+from tendon_statics import Load
 from tendon_statics.physics import slip_margin
 from tendon_statics.physics.calibration.boundary_distance import Noise, boundary_distance
+from tendon_statics.physics.calibration.load_cells import LoadCells
+from tendon_statics.physics.sample_loads import SampleLoads
 
 NOISE = Noise(0.01, math.radians(0.5), 8.0)
 
@@ -74,6 +79,81 @@ def test_the_noise_is_that_of_tensions_angle_and_pressure_to_first_order():
         got = distance(TRUTH, *row)
         assert got.standardised[0] == pytest.approx(whitened[0], rel=1e-5)
         assert got.pressure_standardised[0] == pytest.approx(whitened[1], rel=1e-5)
+
+
+def general_slips(law):
+    """Slips of a unit of any law, on a tilted base, with a force at the tip and a backbone."""
+    plan = SessionPlan(
+        slips=20,
+        tilts=(0.0, 0.9, -1.7),
+        tip_forces=((0.05, -0.1), (-0.08, 0.02)),
+        tip_distance=0.02,
+        pressure_stddev=0.0,
+    )
+    unit = unit_of(law, stiffness=0.004)
+    rows, loads = slips_of(unit, plan, np.random.default_rng(3))
+    arrays = SampleLoads.of(
+        Load(tip_distance=0.02),
+        len(loads),
+        base_tilt=[load.base_tilt for load in loads],
+        tip_force_x=[load.tip_force[0] for load in loads],
+        tip_force_z=[load.tip_force[1] for load in loads],
+    )
+    return unit, rows, loads, arrays
+
+
+@pytest.mark.parametrize('law', brute.LAWS)
+def test_the_excess_is_that_of_every_law_and_load_by_brute_force(law):
+    unit, rows, loads, arrays = general_slips(law)
+    rows[:, 0] *= 1.03
+    got = boundary_distance(unit, *rows.T, NOISE, arrays)
+    for index, (tension_l, tension_s, angle, _) in enumerate(rows.tolist()):
+        case = brute.Case(unit, loads[index], tension_l, tension_s)
+        moment = float(brute.forces(case, angle)[0])
+        side = math.copysign(1.0, moment)
+        excess = float(brute.excess(case, angle, side))
+        scale = unit.friction_coefficient * unit.ball_radius
+        assert got.side[index] == side
+        assert got.excess[index] == pytest.approx(excess / scale, abs=1e-8)
+        alone = boundary_distance(unit, *rows[index : index + 1].T, NOISE, loads[index])
+        for part, one in zip(got, alone, strict=True):
+            assert part[index] == pytest.approx(one[0], rel=1e-9)
+
+
+@pytest.mark.parametrize('law', brute.LAWS)
+def test_the_noise_is_that_of_every_law_load_and_load_cell(law):
+    """Against the covariance of e and q from finite differences of the brute force."""
+    unit, rows, loads, arrays = general_slips(law)
+    cells = LoadCells(1.2, 0.9, 0.02, -0.03)
+    measured = rows.copy()
+    measured[:, 0] = (rows[:, 0] - cells.bias_l) / cells.gain_l
+    measured[:, 1] = (rows[:, 1] - cells.bias_s) / cells.gain_s
+    measured[:, 1] *= 1.01  # off the boundary
+    got = boundary_distance(unit, *measured.T, NOISE, arrays, cells)
+    scale = unit.friction_coefficient * unit.ball_radius
+
+    def equations(row, load, side):
+        tension_l, tension_s = cells.tensions(row[0], row[1])
+        case = brute.Case(unit, load, tension_l, tension_s)
+        normal = pressure(case, row[2], side) * unit.contact_area
+        excess = float(brute.excess(case, row[2], side)) / scale
+        return np.array([excess, row[3] * unit.contact_area - normal])
+
+    variances = np.array([NOISE.tension, NOISE.tension, NOISE.bend_angle, NOISE.pressure]) ** 2
+    for index, row in enumerate(measured):
+        load, side = loads[index], got.side[index]
+        columns = []
+        for place, step in enumerate((1e-6, 1e-6, 1e-6, 1e-3)):
+            change = np.zeros(4)
+            change[place] = step
+            ends = [equations(row + sign * change, load, side) for sign in (1.0, -1.0)]
+            columns.append((ends[0] - ends[1]) / (2.0 * step))
+        gradients = np.array(columns).T
+        covariance = gradients * variances @ gradients.T
+        whitened = np.linalg.solve(np.linalg.cholesky(covariance), equations(row, load, side))
+        assert got.standardised[index] == pytest.approx(whitened[0], rel=1e-4)
+        # The constants of the seat are summed up by two methods.
+        assert got.pressure_standardised[index] == pytest.approx(whitened[1], rel=1e-3, abs=2e-3)
 
 
 def test_where_there_is_no_friction_force_there_is_no_distance():

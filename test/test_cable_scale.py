@@ -13,6 +13,7 @@ scales = st.builds(
     gain=st.floats(-1e6, 1e6).filter(bool),
     bias=st.floats(-1e6, 1e6),
     max_tension=st.floats(0.001, 1e9),
+    slack_threshold=st.floats(0.0, 1e3),
 )
 
 

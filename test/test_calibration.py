@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 from designs import PRELIMINARY
+from law_sessions import SessionPlan, session_of, unit_of
 from scipy.stats import binom
 from slips import (
     BEND_ANGLE_STDDEV,
@@ -22,8 +23,11 @@ from thoroughness import some_of
 from tendon_statics import CalibrationError, Recording, calibrate
 from tendon_statics.physics import design_parameters, paper
 from tendon_statics.physics.calibration.boundary_distance import boundary_distance
+from tendon_statics.physics.calibration.load_cells import LoadCells
+from tendon_statics.physics.calibration.parameters import Model
 
 THREE = ('mass', 'cable_offset', 'friction_coefficient')
+STARTS = {'mass': 0.0196, 'friction_coefficient': 0.6, 'stiffness': 0.0}
 PUBLISHED = Recording([paper.TENSION_L], [paper.TENSION_S], [paper.BEND_ANGLE], [paper.PRESSURE])
 
 
@@ -126,6 +130,96 @@ def test_held_samples_do_not_bias_what_slips_tell(ramp):
     deviations, covered = deviations_and_cover(fits())
     assert (abs(np.mean(deviations, axis=0)) < 3.0 / math.sqrt(seeds)).all()
     assert (covered > binom.ppf(0.001, seeds, 0.95)).all(), covered
+
+
+@pytest.mark.parametrize(
+    ('law', 'fit', 'cells'),
+    [
+        ('merged', ('mass', 'friction_coefficient', 'bias_l', 'bias_s'), (1.0, 1.0, 0.03, -0.05)),
+        ('friction_circle', ('mass', 'friction_coefficient', 'stiffness'), LoadCells()),
+        ('elastic_seat', ('friction_coefficient', 'gain_l', 'gain_s'), (1.05, 0.97, 0.0, 0.0)),
+        ('elastic_seat', ('mass', 'stiffness', 'bias_s'), (1.0, 1.0, 0.0, 0.04)),
+    ],
+)
+def test_backbone_and_load_cells_of_any_law_come_back(law, fit, cells):
+    """Exact to the model without noise; with it the intervals hold the truth at their rate."""
+    plan = SessionPlan(slips=40, tilts=(0.0, 1.0, -1.0))
+    truth = unit_of(law, stiffness=0.004 if 'stiffness' in fit else 0.0)
+    start = dataclasses.replace(
+        truth,
+        **{
+            name: value
+            for name, value in (
+                ('mass', 0.0196),
+                ('friction_coefficient', 0.6),
+                ('stiffness', 0.0),
+            )
+            if name in fit
+        },
+    )
+    cells = LoadCells(*cells)
+    true = [Model(truth, cells).value(name) for name in fit]
+
+    def fitted(seed, noise):
+        quiet = plan._replace(
+            tension_stddev=noise * TENSION_STDDEV, bend_angle_stddev=noise * BEND_ANGLE_STDDEV
+        )
+        data, _ = session_of(truth, quiet, np.random.default_rng(seed))
+        data = dataclasses.replace(
+            data,
+            tension_l=(data.tension_l - cells.bias_l) / cells.gain_l,
+            tension_s=(data.tension_s - cells.bias_s) / cells.gain_s,
+        )
+        return calibrate(start, data, fit)
+
+    exact = fitted(0, 0.0)
+    assert [of.value for of in exact.parameters] == pytest.approx(true, rel=1e-4, abs=1e-6)
+    assert exact.cells == pytest.approx(cells, abs=1e-5)
+    seeds = some_of(40)
+    covered = np.zeros(len(fit))
+    for seed in range(seeds):
+        intervals = [of.interval for of in fitted(seed, 1.0).parameters]
+        covered += [
+            low <= value <= high for (low, high), value in zip(intervals, true, strict=True)
+        ]
+    assert (covered >= binom.ppf(0.001, seeds, 0.95)).all(), covered
+
+
+def test_the_covariance_is_that_of_errors_and_correlations():
+    rng = np.random.default_rng(21)
+    data = recording(measured(slipping_samples(40, rng), rng))
+    fitted = calibrate(PRELIMINARY, data, ('bias_l', 'mass', 'friction_coefficient'))
+    uncertainty = fitted.uncertainty
+    assert uncertainty.parameters == ('mass', 'friction_coefficient')
+    for parameter in fitted.parameters[1:]:
+        assert uncertainty.stddev(parameter.name) == pytest.approx(parameter.standard_error)
+    first, second = (uncertainty.stddev(name) for name in uncertainty.parameters)
+    expected = fitted.correlation[1, 2] * first * second
+    assert uncertainty.covariance[0][1] == pytest.approx(expected)
+    alone = calibrate(PRELIMINARY, data, ('mass', 'friction_coefficient')).uncertainty
+    assert alone.stddev('friction_coefficient') < uncertainty.stddev('friction_coefficient')
+
+
+def test_a_load_that_is_not_known_of_a_sample_leaves_it_out():
+    rng = np.random.default_rng(22)
+    samples = slipping_samples(10, rng)
+    tilt = np.zeros(10)
+    tilt[3] = math.nan
+    data = recording(samples, base_tilt=tilt, tip_force_x=[0.0] * 9 + [math.nan])
+    fitted = calibrate(PRELIMINARY, data)
+    assert fitted.counts['without a base tilt'] == 1
+    assert fitted.counts['without a tip force'] == 1
+    assert fitted.counts['slipping'] == 8
+
+
+def test_two_friction_coefficients_that_hold_as_much_are_said():
+    """An elastic seat holds most at one coefficient, and less on either side of it."""
+    truth = unit_of('elastic_seat')
+    data, _ = session_of(truth, SessionPlan(), np.random.default_rng(23))
+    for friction in (0.2, 1.3):
+        start = dataclasses.replace(truth, friction_coefficient=friction)
+        fitted = calibrate(start, data)
+        assert any('other values fit as well' in warning for warning in fitted.warnings)
 
 
 def test_it_agrees_with_a_fit_of_every_true_sample_beside_the_parameters():

@@ -148,12 +148,7 @@ def test_track_follows_a_file_with_memory(tmp_path):
     ]
     assert [row['time'] for row in table] == ['0.0', '0.1', '0.2', '0.3', '0.4', '0.5']
     assert [row['angle_assured'] for row in table] == [
-        'True',
-        'True',
-        'False',
-        'True',
-        'False',
-        'False',
+        *('True', 'True', 'False', 'False', 'False', 'False')
     ]
     assert -1.0 < float(table[0]['slip_margin']) < 1.0 < float(table[1]['slip_margin'])
 

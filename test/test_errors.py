@@ -19,7 +19,7 @@ def all_errors():
         if not module.name.endswith('__main__')
     ]
     for name in names:
-        if name.endswith('launch_actions') and find_spec('launch_ros') is None:
+        if name.endswith('launching.actions') and find_spec('launch_ros') is None:
             continue  # ROS 2 from PyPI has no launch
         for _, found in inspect.getmembers(import_module(name), inspect.isclass):
             is_ours = found.__module__ == name and not found.__name__.startswith('_')

@@ -9,16 +9,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tendon_statics.files.number_parameter import SettingError
-from tendon_statics.node.faults import (
+from tendon_statics.driver.faults import LAG, FaultMaker
+from tendon_statics.files.fault_settings import (
     IMPLAUSIBLE_TENSION,
-    LAG,
     STAMP_FAULTS,
     Fault,
-    FaultMaker,
     FaultSettings,
     fault_parameters,
 )
+from tendon_statics.files.parameter_kinds import SettingError
 
 TENSIONS = (1.0, 2.0)
 PERIOD = 2_000_000

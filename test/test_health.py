@@ -13,7 +13,8 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray
 
 from tendon_statics import solve
-from tendon_statics.node.health import Health, Level
+from tendon_statics.estimation.health import Health, Level
+from tendon_statics.node.diagnostics import status_of
 from tendon_statics.physics import StickSlipTracker
 from tendon_statics.tensions.reason import Reason
 
@@ -25,7 +26,7 @@ OK, WARN, ERROR, STALE = (
 
 
 def said(health: Health, **publishers: int) -> tuple[bytes, str]:
-    status = health.status('estimator: estimation', 'bend', publishers)
+    status = status_of(health, 'estimator: estimation', 'bend', publishers)
     assert status.name == 'estimator: estimation'
     assert status.hardware_id == 'bend'
     return status.level, status.message
@@ -85,19 +86,21 @@ def test_a_result_of_the_other_branch_is_a_warning():
 def test_two_publishers_and_lost_messages_are_warnings():
     health = Health()
     health.note_result(solve(PRELIMINARY, *SLIPPING), 1e-4)
-    status = health.status('n: t', 'bend', {'/tensions': 2})
+    status = status_of(health, 'n: t', 'bend', {'/tensions': 2})
     assert (status.level, status.message) == (WARN, '2 publishers on /tensions, one is expected')
     assert values(status)['publishers on /tensions'] == '2'
     health.note_lost(3)
     assert said(health) == (WARN, '3 messages lost on the way')
     health.begin_period()
     assert said(health)[0] == OK
-    assert values(health.status('n: t', 'bend', {}))['messages lost on the way'] == '3'
+    assert values(status_of(health, 'n: t', 'bend', {}))['messages lost on the way'] == '3'
 
 
 def test_where_lost_messages_are_not_seen_none_is_claimed():
     health = Health(counts_lost=False)
-    assert values(health.status('n: t', 'bend', {}))['messages lost on the way'] == 'not counted'
+    assert (
+        values(status_of(health, 'n: t', 'bend', {}))['messages lost on the way'] == 'not counted'
+    )
 
 
 def test_tensions_that_waited_long_are_older_and_a_warning():
@@ -105,7 +108,7 @@ def test_tensions_that_waited_long_are_older_and_a_warning():
     health.note_result(solve(PRELIMINARY, *SLIPPING), 1e-4)
     health.note_lag(0.2, most=0.5)
     assert said(health)[0] == OK
-    assert float(values(health.status('n: t', 'b', {}))['age of newest tensions [s]']) >= 0.2
+    assert float(values(status_of(health, 'n: t', 'b', {}))['age of newest tensions [s]']) >= 0.2
     health.note_lag(0.7, most=0.5)
     assert said(health) == (WARN, 'behind: tensions waited 0.7 s to be taken')
 
@@ -114,7 +117,7 @@ def test_counts_are_kept_by_reason():
     health = Health()
     for reason in Reason:
         health.note_drop(reason, f'a {reason.value} message')
-    found = values(health.status('n: t', 'bend', {}))
+    found = values(status_of(health, 'n: t', 'bend', {}))
     assert all(found[f'dropped: {reason.value}'] == '1' for reason in Reason)
     assert found['last drop'] == 'a unpaired message'
     assert found['pairs solved'] == '0'

@@ -3,7 +3,7 @@
 import pytest
 from list_entities import alone
 
-from tendon_statics.joint_names import JointNameError, JointNames, load_joint_names
+from tendon_statics.launching.joint_names import JointNameError, JointNames, load_joint_names
 from tendon_statics.node.estimator import Estimator
 
 BLOCKS = {

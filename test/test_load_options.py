@@ -125,6 +125,37 @@ def test_the_papers_law_says_why_there_is_a_remainder():
     assert 'only has their squares add up' in text
 
 
+def test_the_design_file_says_what_options_leave_open(tmp_path):
+    path = tmp_path / 'unit.yaml'
+    direction = [math.sin(math.radians(10.0)), 0.0, -math.cos(math.radians(10.0))]
+    beside = {'gravity_direction': direction, 'tip_distance': 0.03}
+    save_design(path, PRELIMINARY, parameters=beside)
+    file = ('--design', path)
+    assert '7.1400 deg' in run('solve', *PAIR, *file).stdout
+    upright = run('solve', *PAIR, *file, '--base-tilt-deg', '0').stdout
+    assert '17.1400 deg' in upright
+    assert '-30.0000 deg to +7.1400 deg' in run('admissible', *PAIR, *file).stdout
+    with_tip = as_json('solve', *PAIR, *file, '--tip-force', '0', '-0.1')
+    assert with_tip['load']['tip_distance'] == 0.03
+    assert with_tip['load']['gravity_direction'] == pytest.approx(direction)
+    samples = tmp_path / 'run.csv'
+    samples.write_text('tension_l,tension_s\n1.0,2.0\n1.0,2.0\n')
+    assert 'base tilted by 10 deg' in run('replay', samples, *file).stdout
+    (row, _) = csv.DictReader(run('track', samples, *file).stdout.splitlines())
+    tracked = StickSlipTracker(PRELIMINARY).update(1.0, 2.0, TILTED)
+    assert float(row['bend_angle']) == tracked.bend_angle
+    assert float(row['slip_margin']) == pytest.approx(tracked.slip_margin)
+
+
+def test_a_recording_with_a_tilt_of_its_own_is_tracked_by_that(tmp_path):
+    samples = tmp_path / 'run.csv'
+    samples.write_text('tension_l,tension_s,base_tilt [deg]\n1.0,2.0,10\n1.0,2.0,10\n')
+    (row, _) = csv.DictReader(run('track', samples).stdout.splitlines())
+    tracked = StickSlipTracker(PRELIMINARY).update(1.0, 2.0, TILTED)
+    assert float(row['slip_margin']) == pytest.approx(tracked.slip_margin)
+    assert_refused(run('track', samples, *TILT), 'has the tilt of the base in it')
+
+
 @pytest.mark.parametrize(
     ('options', 'named'),
     [
@@ -133,7 +164,7 @@ def test_the_papers_law_says_why_there_is_a_remainder():
         ((*TILT, '--gravity-direction', '0', '0', '-1'), 'not allowed with'),
         (('--gravity-direction', '0', '0', '0'), 'length zero'),
         (('--gravity-direction', '0', '-1'), '3 arguments'),
-        (('--tip-force', '0.1', '0'), '--tip-force is given without --tip-distance'),
+        (('--tip-force', '0.1', '0'), 'say --tip-distance'),
         (('--tip-distance', '0.1'), '--tip-distance is given without --tip-force'),
         (('--tip-force', '0', '5', '--tip-distance', '0'), 'the pull of weight and tip force'),
         (('--tip-force', '1e10', '5', '--tip-distance', '0'), 'allowed is up to 1e+09'),

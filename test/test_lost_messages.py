@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tendon_statics.node.lost_messages import LostMessages
+from tendon_statics.node.inputs.lost_messages import LostMessages
 
 ONE, OTHER = 'one', 'other'
 

@@ -2,14 +2,16 @@
 
 import math
 
+import numpy as np
 import pytest
 from designs import PRELIMINARY, cases
 from hypothesis import given
 from std_msgs.msg import Header
 from visualization_msgs.msg import Marker
 
-from tendon_statics import Regime, solve
-from tendon_statics.node.markers import COLOURS, no_markers, unit_markers
+from tendon_statics import Load, Regime, solve
+from tendon_statics.estimation.regimes import REGIME_COLOURS, red_green_blue
+from tendon_statics.node.outputs.markers import no_markers, unit_markers
 from tendon_statics.physics import admissible_angles
 
 HEADER = Header(frame_id='joint')
@@ -19,7 +21,7 @@ HELD, SLIPPING, STOP, SLACK = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0), (0.0, 2.0)
 def drawn(design, tensions) -> tuple[Marker, Marker, Marker]:
     result = solve(design, *tensions)
     intervals = [] if result.regime is Regime.SLACK else admissible_angles(design, *tensions)
-    unit, band, label = unit_markers(design, result, intervals, HEADER).markers
+    unit, band, label, *_ = unit_markers(result, intervals, HEADER).markers
     return unit, band, label
 
 
@@ -32,6 +34,21 @@ def test_the_unit_points_to_its_angle(tensions):
     assert unit.header.frame_id == 'joint'
 
 
+def test_gravity_and_the_force_on_the_tip_are_arrows():
+    load = Load((0.6, 0.0, -0.8), tip_force=(0.03, -0.04), tip_distance=0.02)
+    result = solve(PRELIMINARY, *STOP, load)
+    *_, gravity, tip_force = unit_markers(result, [], HEADER).markers
+    start, end = gravity.points
+    arrow = np.array([end.x - start.x, end.y - start.y, end.z - start.z])
+    assert arrow / np.linalg.norm(arrow) == pytest.approx(load.gravity_direction)
+    start, end = tip_force.points
+    angle = result.bend_angle
+    assert (end.x, end.z) == pytest.approx((0.02 * math.sin(angle), 0.02 * math.cos(angle)))
+    assert (end.x - start.x) / (end.z - start.z) == pytest.approx(0.03 / -0.04)
+    *_, gravity, tip_force = unit_markers(solve(PRELIMINARY, *STOP), [], HEADER).markers
+    assert (gravity.action, tip_force.action) == (Marker.ADD, Marker.DELETE)
+
+
 def test_what_is_not_determined_is_taken_away():
     unit, band, label = drawn(PRELIMINARY, HELD)
     assert (unit.action, band.action, label.text) == (Marker.DELETE, Marker.ADD, 'held')
@@ -41,8 +58,8 @@ def test_what_is_not_determined_is_taken_away():
 
 
 def test_regimes_differ_in_colour():
-    assert set(COLOURS) == set(Regime)
-    assert len(set(COLOURS.values())) == len(COLOURS)
+    assert set(REGIME_COLOURS) == set(Regime)
+    assert len(set(map(red_green_blue, REGIME_COLOURS.values()))) == len(REGIME_COLOURS)
 
 
 @given(cases())

@@ -9,7 +9,7 @@ from designs import PRELIMINARY
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from std_msgs.msg import Float64MultiArray, Header
 
-from tendon_statics.node import messages
+from tendon_statics.node.outputs import messages
 from tendon_statics.physics import Regime, StickSlipTracker, solve
 
 NOISE = 0.01
@@ -53,7 +53,9 @@ def test_what_is_not_known_is_not_a_number_in_an_estimate():
     numbers = {name: getattr(used, name) for name in used.get_fields_and_field_types()}
     known = {name for name in numbers if isinstance(numbers[name], float)}
     known -= {name for name in known if math.isnan(numbers[name])}
-    assert known == {'tension_l', 'tension_s'}
+    of_load = {f'gravity_direction_{axis}' for axis in 'xyz'}
+    of_load |= {'tip_force_x', 'tip_force_z', 'tip_distance'}
+    assert known == {'tension_l', 'tension_s', *of_load}
 
 
 def test_intervals_and_poses_hold_nothing_of_those_before():

@@ -14,14 +14,14 @@ from ros_programs import Program, spinning, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
-from tendon_statics.files.installed_files import installed_config
-from tendon_statics.node.faults import (
+from tendon_statics.driver.faults import FaultMaker
+from tendon_statics.files.fault_settings import (
     IMPLAUSIBLE_TENSION,
     STAMP_FAULTS,
     Fault,
-    FaultMaker,
     FaultSettings,
 )
+from tendon_statics.files.installed_files import installed_config
 from tendon_statics.recordings.reading.load import load_recording
 
 ROWS = load_recording(installed_config('demo_tensions.csv')).tensions()

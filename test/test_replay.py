@@ -85,7 +85,7 @@ def walk():
 @pytest.mark.parametrize('chunk', [7, 1000])
 def test_each_sample_by_itself_is_as_solve_answers(walk, monkeypatch, chunk):
     monkeypatch.setattr(replay_module, 'CHUNK', chunk)
-    replayed = replay(PRELIMINARY, walk, tension_stddev=0.02)
+    replayed = replay(PRELIMINARY, walk, tension_stddev=0.008)
     for index, tensions in enumerate(walk.tensions()):
         try:
             answer = solve(PRELIMINARY, *tensions)
@@ -100,8 +100,8 @@ def test_each_sample_by_itself_is_as_solve_answers(walk, monkeypatch, chunk):
             continue
         assert replayed.bend_angle[index] == pytest.approx(answer.bend_angle, abs=1e-9)
         assert replayed.pressure[index] == pytest.approx(answer.pressure, rel=1e-9)
-        assert replayed.bend_angle_stddev[index] == pytest.approx(answer.bend_angle_stddev(0.02))
-        assert replayed.pressure_stddev[index] == pytest.approx(answer.pressure_stddev(0.02))
+        assert replayed.bend_angle_stddev[index] == pytest.approx(answer.bend_angle_stddev(0.008))
+        assert replayed.pressure_stddev[index] == pytest.approx(answer.pressure_stddev(0.008))
         margin = slip_margin(PRELIMINARY, *tensions, answer.bend_angle)
         assert replayed.slip_margin[index] == pytest.approx(margin, abs=1e-6)
     assert replayed.error[0] == replayed.bend_angle[0]

@@ -7,7 +7,7 @@ from designs import PRELIMINARY
 
 from tendon_statics import default_design_path
 from tendon_statics.files.installed_files import installed_config
-from tendon_statics.files.rig_file import RigFileError, load_rig
+from tendon_statics.launching.rig_file import RigFileError, load_rig
 
 MINIMAL = '- namespace: left\n  design_file: unit.yaml\n'
 

@@ -13,7 +13,7 @@ from ros_programs import Program, spinning, wait_for
 from tendon_statics_interfaces.msg import Estimate
 
 from tendon_statics.files.installed_files import installed_config
-from tendon_statics.files.rig_file import load_rig
+from tendon_statics.launching.rig_file import load_rig
 
 LAUNCH = ('ros2', 'launch', 'tendon_statics', 'rig.launch.py')
 

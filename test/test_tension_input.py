@@ -7,9 +7,13 @@ import sys
 import pytest
 from builtin_interfaces.msg import Time
 from designs import PRELIMINARY
+from diagnostic_msgs.msg import DiagnosticStatus
 from listener import Listener
+from rclpy.node import Node
 from ros_programs import Program, spinning, wait_for
 from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Header
 from test_health import values
 
 from tendon_statics import solve
@@ -74,11 +78,111 @@ def test_what_comes_late_or_twice_is_dropped_and_counted(driver):
 
 
 @pytest.mark.parametrize('driver', ['joint_state'], indirect=True)
-def test_a_joint_state_without_a_cable_is_invalid(driver):
-    with driver.estimator('-p', 'cable_names:=[cable_l, cable_s]') as program:
-        assert driver.answer(1.0) == 'invalid'
-        wait_for('the warning', lambda: 'no cable_s among the names: cable_l' in program.output())
-        assert driver.answer(*SLIPPING) == 'equilibrium'
+def test_joint_states_of_one_cable_each_are_joined(driver):
+    """As some drivers publish one actuator a message."""
+    with driver.estimator('-p', 'max_skew:=0.01'):
+        driver.answer(*SLIPPING)
+        driver.newest_estimate()
+        sent = driver.get_clock().now().nanoseconds // 10**9 + 1
+        before = len(driver.estimates)
+        for number in range(20):
+            early, late = (
+                Time(sec=sent, nanosec=number * 20_000_000 + of) for of in (1, 5_000_001)
+            )
+            for name, effort, stamp in (('cable_s', 3.0, early), ('cable_l', 1.0, late)):
+                driver.tension_publishers[0].publish(
+                    JointState(header=Header(stamp=stamp), name=[name], effort=[effort])
+                )
+        wait_for('the estimates', lambda: len(driver.estimates) == before + 20)
+        assert {(of.tension_l, of.tension_s) for of in driver.estimates[before:]} == {STOP}
+        assert latest_values(driver)['dropped: unpaired'] == '0'
+
+
+@pytest.mark.parametrize('driver', ['joint_state'], indirect=True)
+def test_what_others_publish_on_the_topic_is_passed_over(driver):
+    """With the very stamps of ours, and before and after them; the case of two_sources."""
+    with driver.estimator('-p', 'input_timeout:=60.0'):
+        driver.answer(*SLIPPING)
+        before = latest_values(driver)
+        count = len(driver.regimes)
+        with spinning(lambda context: Node('other', context=context)) as other:
+            wheel = other.create_publisher(JointState, 'tensions', 100)
+            wait_for('the other to be heard', lambda: wheel.get_subscription_count() > 0)
+            for _ in range(40):
+                stamp = driver.get_clock().now().to_msg()
+                wheel.publish(JointState(header=Header(stamp=stamp), name=['wheel'], effort=[0.1]))
+                wheel.publish(JointState(name=['wheel', 'arm'], effort=[0.1]))
+                driver.publish(*SLIPPING, stamp=stamp)
+                wheel.publish(JointState(header=Header(stamp=stamp), name=['wheel'], effort=[0.1]))
+            wait_for('all answers', lambda: len(driver.regimes) == count + 40)
+            wait_for(
+                'the count',
+                lambda: latest_values(driver)['messages about neither cable'] == '120',
+            )
+            after = latest_values(driver)
+            level, message = driver.diagnostics[-1].level, driver.diagnostics[-1].message
+        assert set(driver.regimes) == {'equilibrium'}
+        assert int(after['messages received']) == int(before['messages received']) + 40
+        assert not [key for key in after if key.startswith('dropped: ') and after[key] != '0']
+        assert (level, message) == (DiagnosticStatus.OK, 'equilibrium')
+
+
+@pytest.mark.parametrize('driver', ['joint_state'], indirect=True)
+def test_efforts_of_some_names_are_of_the_wrong_length(driver):
+    with driver.estimator():
+        header = Header(stamp=driver.get_clock().now().to_msg())
+        names = ['cable_l', 'cable_s', 'wheel']
+        driver.tension_publishers[0].publish(
+            JointState(header=header, name=names, effort=[1.0, 2.0])
+        )
+        wait_for('that it is invalid', lambda: 'invalid' in driver.regimes)
+        assert latest_values(driver)['dropped: wrong length'] == '1'
+        assert not driver.estimates
+
+
+@pytest.mark.parametrize('driver', STAMPED, indirect=True)
+def test_stamps_of_another_clock_are_a_warning(driver):
+    with driver.estimator('-p', 'input_timeout:=60.0', '-p', 'max_clock_offset:=30.0'):
+        now = driver.get_clock().now().to_msg()
+        since = len(driver.diagnostics)
+        driver.publish(*SLIPPING, stamp=Time(sec=now.sec + 100))
+        driver.wait_for_status(
+            DiagnosticStatus.WARN, 'stamps differ from the clock of the node by +', since=since
+        )
+
+
+@pytest.mark.parametrize('driver', ['joint_state'], indirect=True)
+def test_a_driver_that_does_not_stamp_is_taken_as_it_arrives(driver):
+    with driver.estimator('-p', 'input_timeout:=60.0', greet=False):
+        wait_for('an answer', lambda: driver.publish(*STOP, stamp=Time()) or driver.estimates)
+        count = len(driver.regimes)
+        for _ in range(5):
+            driver.publish(*STOP, stamp=Time())
+        wait_for('all answers', lambda: len(driver.regimes) >= count + 5)
+        assert set(driver.regimes) == {'driven_to_stop'}
+        assert driver.newest_estimate().header.stamp.sec > 0
+
+
+@pytest.mark.parametrize(
+    ('parameter', 'rows', 'reason'),
+    [
+        ('max_tension_rate:=1.0', [(1.0, 400.0)], 'too fast'),
+        ('saturation_count:=5', [(1.0, 4.0)] * 8, 'saturated'),
+        ('frozen_count:=5', [(1.0, 2.0)] * 8, 'frozen'),
+    ],
+)
+def test_a_reading_that_is_not_plausible_is_dropped_counted_and_said(
+    parameter, rows, reason, listener
+):
+    with listener.estimator('-p', 'input_timeout:=60.0', '-p', parameter, greet=False) as program:
+        listener.connect(program, greet=False)
+        wait_for('an answer', lambda: listener.publish(1.0, 2.5) or listener.estimates)
+        since = len(listener.diagnostics)
+        for row in rows:
+            listener.publish(*row)
+        listener.wait_for_status(DiagnosticStatus.WARN, f'dropped {reason}', since=since)
+        assert int(latest_values(listener)[f'dropped: {reason}']) > 0
+        assert 'invalid' in listener.regimes
 
 
 @pytest.mark.parametrize('driver', ['wrench_pair'], indirect=True)

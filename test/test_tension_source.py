@@ -11,17 +11,19 @@ from hypothesis import strategies as st
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
 
-from tendon_statics.node.tension_source import (
+from tendon_statics.node.inputs.sources import (
     ArraySource,
     JointStateSource,
     Reading,
-    StampOrder,
     WrenchPairSource,
-    nanoseconds,
 )
+from tendon_statics.node.inputs.stamp_order import StampOrder, nanoseconds
 from tendon_statics.tensions.cable_scale import CableScale, scaled
 from tendon_statics.tensions.pairing import MOST_WAITING
 from tendon_statics.tensions.reason import Reason
+
+ARRIVAL = 10**18
+"""ns"""
 
 
 class Taken:
@@ -70,7 +72,7 @@ def wrench(milliseconds, x=0.0, y=0.0, z=0.0) -> WrenchStamped:
 
 def send(source, topic, *sent):
     for message in sent:
-        source.inputs[topic][1](message)
+        source.inputs[topic][1](message, ARRIVAL)
 
 
 def test_an_array_is_taken_as_it_is_and_has_no_stamp(taken):
@@ -83,29 +85,66 @@ def test_an_array_is_taken_as_it_is_and_has_no_stamp(taken):
 
 
 def test_cables_are_found_by_name_in_any_order(taken):
-    source = JointStateSource(taken.deliver, taken.drop, ('left', 'right'))
+    source = JointStateSource(taken.deliver, taken.drop, ('left', 'right'), lambda: 0.0005)
     send(
         source,
         'tensions',
         joint_state(1, left=1, right=2),
         joint_state(2, other=7, right=4, left=3),
-        joint_state(3, right=1),
         JointState(header=Header(stamp=at(4)), name=['left', 'right'], effort=[1.0]),
         JointState(header=Header(stamp=at(5)), name=['left', 'right']),
-        JointState(header=Header(stamp=at(6))),
     )
     assert taken.values == [(1.0, 2.0), (3.0, 4.0)]
     assert [reading.stamp for reading in taken.readings] == [at(1), at(2)]
-    assert taken.reasons == [
-        *(Reason.MISSING_CABLE, Reason.WRONG_LENGTH, Reason.WRONG_LENGTH),
-        Reason.MISSING_CABLE,
-    ]
-    assert 'no left among the names: right' in taken.drops[0][1]
-    assert '2 names came with 1 efforts, so it is not known whose' in taken.drops[1][1]
+    assert taken.reasons == [Reason.WRONG_LENGTH, Reason.WRONG_LENGTH]
+    assert '2 names came with 1 efforts, so it is not known whose' in taken.drops[0][1]
+
+
+def test_what_is_about_neither_cable_is_passed_over_whatever_else_is_wrong_with_it(taken):
+    """Stamps equal to ours, interleaved, or going back, and wrong lengths."""
+    source = JointStateSource(taken.deliver, taken.drop, ('left', 'right'), lambda: 0.0005)
+    for stamp in range(1, 6):
+        foreign = (
+            joint_state(stamp, wheel=1),
+            joint_state(0, wheel=1, arm=2),
+            JointState(header=Header(stamp=at(99)), name=['wheel'], effort=[1.0, 2.0]),
+            JointState(header=Header(stamp=at(stamp))),
+        )
+        assert all(source.is_foreign(message) for message in foreign)
+        send(source, 'tensions', *foreign, joint_state(stamp, left=stamp, right=2), *foreign)
+    assert taken.values == [(float(stamp), 2.0) for stamp in range(1, 6)]
+    assert not taken.drops
+
+
+def test_joint_states_of_one_cable_each_are_joined(taken):
+    """With one stamp or nearly so, in any order."""
+    source = JointStateSource(taken.deliver, taken.drop, ('left', 'right'), lambda: 0.0015)
+    send(
+        source,
+        'tensions',
+        *(joint_state(10, left=1), joint_state(10, right=2)),
+        *(joint_state(20, right=4), joint_state(21, left=3)),
+        *(joint_state(30, left=5, wheel=0), joint_state(40, left=7), joint_state(41, right=8)),
+    )
+    assert taken.values == [(1.0, 2.0), (3.0, 4.0), (7.0, 8.0)]
+    assert [reading.stamp for reading in taken.readings] == [at(10), at(21), at(41)]
+    assert taken.reasons == [Reason.UNPAIRED]
+    assert 'left of 0.030000000 s has no partner of its own' in taken.drops[0][1]
+
+
+def test_a_pair_in_one_message_is_not_joined_with_half_of_another(taken):
+    source = JointStateSource(taken.deliver, taken.drop, ('left', 'right'), lambda: 10.0)
+    send(
+        source,
+        'tensions',
+        *(joint_state(1, left=1), joint_state(2, left=3, right=4), joint_state(3, right=5)),
+    )
+    assert taken.values == [(3.0, 4.0)]
+    assert taken.reasons == [Reason.UNPAIRED]
 
 
 def test_stamps_out_of_order_and_repeated_ones_are_dropped(taken):
-    source = JointStateSource(taken.deliver, taken.drop, ('l', 's'))
+    source = JointStateSource(taken.deliver, taken.drop, ('l', 's'), lambda: 0.0005)
     send(source, 'tensions', *(joint_state(stamp, l=stamp, s=1) for stamp in (5, 7, 6, 7, 2, 8)))
     assert taken.values == [(5.0, 1.0), (7.0, 1.0), (8.0, 1.0)]
     assert taken.reasons == [
@@ -114,11 +153,23 @@ def test_stamps_out_of_order_and_repeated_ones_are_dropped(taken):
     assert 'the stamp is 0.006000000 s, after 0.007000000 s' in taken.drops[0][1]
 
 
-def test_a_driver_that_does_not_stamp_is_told_so(taken):
-    source = JointStateSource(taken.deliver, taken.drop, ('l', 's'))
-    send(source, 'tensions', joint_state(0, l=1, s=2), joint_state(0, l=1, s=2))
-    assert len(taken.readings) == 1
-    assert 'does not stamp' in taken.drops[0][1]
+def test_a_stamp_of_0_is_none(taken):
+    """So every message is taken, as it arrives."""
+    source = JointStateSource(taken.deliver, taken.drop, ('l', 's'), lambda: 0.0005)
+    send(source, 'tensions', *(joint_state(0, l=value, s=2) for value in (1, 2, 3)))
+    assert taken.values == [(1.0, 2.0), (2.0, 2.0), (3.0, 2.0)]
+    send(source, 'tensions', joint_state(0, l=4), joint_state(0, s=5))
+    assert taken.values[-1] == (4.0, 5.0)
+    assert {reading.stamp for reading in taken.readings} == {None}
+    assert not taken.drops
+
+
+def test_a_topic_has_one_clock(taken):
+    """Of a driver that has stamped its messages, one without a stamp is out of order."""
+    source = JointStateSource(taken.deliver, taken.drop, ('l', 's'), lambda: 0.0005)
+    send(source, 'tensions', *(joint_state(stamp, l=stamp, s=1) for stamp in (0, 5, 0, 6)))
+    assert [reading.value_l for reading in taken.readings] == [0.0, 5.0, 6.0]
+    assert taken.reasons == [Reason.OUT_OF_ORDER]
 
 
 @pytest.mark.parametrize('first', [1000, 10**9])
@@ -155,7 +206,7 @@ def test_stamps_that_do_not_rise_are_never_taken():
 
 def test_a_bad_stamp_of_bad_content_does_not_shut_a_stale_input(taken):
     """What came of no tensions has not made the stamps sound."""
-    source = JointStateSource(taken.deliver, taken.drop, ('l', 's'))
+    source = JointStateSource(taken.deliver, taken.drop, ('l', 's'), lambda: 0.0005)
     source.loosen()
     send(source, 'tensions', joint_state(10**9, l=math.nan, s=math.nan))
     send(source, 'tensions', *(joint_state(stamp, l=stamp, s=1) for stamp in range(10, 20)))

@@ -1,13 +1,15 @@
 """`unit_description`: the URDF for robot_state_publisher, with the names of the estimator."""
 
+import math
 import sys
 from xml.etree import ElementTree
 
 import pytest
 
 from tendon_statics import default_design_path
-from tendon_statics.joint_names import JointNames
-from tendon_statics.unit_description import DescriptionError, unit_description
+from tendon_statics.launching.base_turn import BaseTurnError, load_base_turn
+from tendon_statics.launching.joint_names import JointNames
+from tendon_statics.launching.unit_description import DescriptionError, unit_description
 
 
 def test_it_has_the_names_that_it_is_given(tmp_path):
@@ -21,6 +23,24 @@ def test_it_has_the_names_that_it_is_given(tmp_path):
     assert joint.find('parent').get('link') == 'left/joint'
     assert joint.find('child').get('link') == 'left/unit'
     assert [link.get('name') for link in robot.iter('link')] == ['left/joint', 'left/unit']
+
+
+def test_the_base_is_tilted_as_the_parameters_say(tmp_path):
+    path = tmp_path / 'unit.yaml'
+    text = default_design_path().read_text()
+    path.write_text(text + '    gravity_direction: [0.1736481776669303, 0, -0.984807753012208]\n')
+    turn = load_base_turn(path, '/estimator')
+    assert turn == pytest.approx((0.0, math.radians(10.0)))
+    robot = ElementTree.fromstring(unit_description(path, JointNames(), base_turn=turn))
+    links = [link.get('name') for link in robot.iter('link')]
+    assert links == ['joint', 'joint_base', 'unit']
+    # Where a sensor tells it, its transform does.
+    assert load_base_turn(path, '/estimator', {'gravity_source': 'imu'}) is None
+    assert load_base_turn(default_design_path(), '/estimator') is None
+    with pytest.raises(
+        BaseTurnError, match=r'unit\.yaml: gravity_direction is \[0, 0, 0\]|length'
+    ):
+        load_base_turn(path, '/estimator', {'gravity_direction': [0, 0, 0]})
 
 
 def test_a_relative_path_starts_from_where_the_user_is(tmp_path, monkeypatch):

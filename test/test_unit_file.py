@@ -32,8 +32,8 @@ def unit(tmp_path):
 
 def test_what_is_not_given_has_the_estimators_defaults(unit):
     found = load_unit(unit('cable_l.gain: 2', 'cable_s: {bias: -0.5}', 'tension_stddev: 0.02'))
-    assert found.cable_l == CableScale(2.0, 0.0, 1000.0)
-    assert found.cable_s == CableScale(1.0, -0.5, 1000.0)
+    assert found.cable_l == CableScale(2.0, 0.0, 1000.0, slack_threshold=0.06)
+    assert found.cable_s == CableScale(1.0, -0.5, 1000.0, slack_threshold=0.06)
     assert found.get('tension_stddev') == 0.02
     assert found.get('tension_source') is None
     assert found.misspelt == []
@@ -134,7 +134,8 @@ def test_what_a_file_says_beside_the_design_is_written_again(unit, tmp_path):
 
 
 RAW = (
-    'time,tension_l,tension_s\n0,1100,2000\n0.1,1100,1500\n0.2,1100,-5\n0.3,1100,9000\n0.4,nan,1\n'
+    'time,tension_l,tension_s\n0,1100,2000\n0.1,1100,1500\n0.2,1100,-50\n'
+    '0.3,1100,9000\n0.4,nan,1\n'
 )
 GAINS = (
     *('cable_l.gain: 0.001', 'cable_s.gain: 0.001', 'cable_l.bias: -0.1'),
@@ -207,7 +208,7 @@ def test_estimation_and_noise_of_the_file_are_taken_unless_an_option_says_otherw
 ):
     data = tmp_path / 'run.csv'
     data.write_text('tension_l,tension_s\n1,2\n')
-    path = unit('estimation: tracking', 'initial_bend_angle: 0.25', 'tension_stddev: 0.5')
+    path = unit('estimation: tracking', 'initial_bend_angle: 0.25', 'tension_stddev: 0.05')
     done = run('track', data, '--design', path)
     assert float(done.stdout.splitlines()[1].split(',')[2]) == 0.25
     assert 'estimation    tracking\n' in run('replay', data, '--design', path).stdout

@@ -15,7 +15,9 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from scipy.spatial.transform import Rotation
 from std_msgs.msg import Header
 
-from tendon_statics.node.messages import fill_unit_pose
+from tendon_statics import Load
+from tendon_statics.estimation.orientation import roll_and_pitch
+from tendon_statics.node.outputs.messages import fill_unit_pose
 
 URDF = Path(get_package_share_directory('tendon_statics'), 'urdf')
 
@@ -116,6 +118,19 @@ def test_a_unit_without_mass_has_no_inertia(tmp_path):
     design = dataclasses.replace(PRELIMINARY, mass=0.0)
     robot = description(design_file=str(design_file(tmp_path, design)))
     assert robot.find('link/inertial') is None
+
+
+def test_the_joint_is_tilted_in_a_base_whose_z_is_up():
+    """Gravity points in the joint's frame as it does in that of the estimator."""
+    load = Load((0.3, -0.2, -0.9))
+    roll, pitch = roll_and_pitch(load.gravity_direction)
+    robot = description(base='base', base_roll=repr(roll), base_tilt=repr(pitch))
+    joint = robot.find("joint[@name='joint_tilt']")
+    assert (joint.find('parent').get('link'), joint.find('child').get('link')) == ('base', 'joint')
+    turn = Rotation.from_euler('xyz', vector(joint.find('origin'), 'rpy'))
+    assert turn.inv().apply([0.0, 0.0, -1.0]) == pytest.approx(load.gravity_direction)
+    tilted = roll_and_pitch(Load.tilted(0.4).gravity_direction)
+    assert tilted == pytest.approx((0.0, 0.4))
 
 
 def test_a_robot_can_have_two_of_them(tmp_path):

@@ -1,26 +1,22 @@
 """`warn_of_unknown_parameters`: of what neither node has, and of nothing else."""
 
 import pytest
-from list_driver_parameters import own_parameters
-from list_entities import alone
+from list_entities import alone, own_parameters
 
-from tendon_statics.node import unknown_parameters
+from tendon_statics.driver.pulley_driver import PulleyDriver
+from tendon_statics.files.driver_parameters import DRIVER_PARAMETERS
+from tendon_statics.files.estimator_parameters import WIRING, known_names
 from tendon_statics.node.estimator import Estimator
-from tendon_statics.node.pulley_driver import PulleyDriver
-from tendon_statics.node.unknown_parameters import (
-    DRIVER_PARAMETERS,
-    ESTIMATOR_PARAMETERS,
-    warn_of_unknown_parameters,
-)
+from tendon_statics.node.parameters.estimator import Wiring
+from tendon_statics.node.parameters.unknown import QOS, warn_of_unknown_parameters
 
 
-def test_the_names_are_those_that_the_nodes_have():
+def test_the_tables_are_all_that_the_nodes_have():
     with alone(Estimator) as node:
-        of_estimator = set(own_parameters(node))
+        assert set(own_parameters(node)) == known_names()
     with alone(PulleyDriver) as node:
-        of_driver = set(own_parameters(node))
-    assert set(ESTIMATOR_PARAMETERS) == of_estimator
-    assert set(DRIVER_PARAMETERS) == of_driver - of_estimator
+        assert own_parameters(node) == [parameter.name for parameter in DRIVER_PARAMETERS]
+    assert Wiring._fields == tuple(parameter.name for parameter in WIRING)
 
 
 @pytest.mark.parametrize('node_class', [Estimator, PulleyDriver])
@@ -47,4 +43,4 @@ def test_an_estimator_has_qos_overrides_of_its_own_and_names_a_misspelt_one(monk
         monkeypatch.setattr(node.get_logger(), 'warning', said.append)
         warn_of_unknown_parameters(node)
     (text,) = said
-    assert unknown_parameters.QOS in text
+    assert QOS in text

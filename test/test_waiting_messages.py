@@ -6,7 +6,7 @@ from rclpy.node import Node
 from ros_programs import wait_for
 from std_msgs.msg import Float64
 
-from tendon_statics.node.waiting_messages import waiting_messages
+from tendon_statics.node.inputs.waiting_messages import waiting_messages
 
 
 @pytest.fixture

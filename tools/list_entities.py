@@ -14,7 +14,8 @@ from rclpy.node import Node
 from ros_domain import own_domain
 
 from tendon_statics.command_line.tables import markdown_table
-from tendon_statics.node.estimator import LONGEST_SLEEP, Estimator
+from tendon_statics.node.estimator import Estimator
+from tendon_statics.node.watchdog import LONGEST_SLEEP
 
 NodeType = TypeVar('NodeType', bound=Node)
 
@@ -74,6 +75,12 @@ def alone(make_node: Callable[[], NodeType], *ros_arguments: str) -> Iterator[No
                 node.destroy_node()
         finally:
             rclpy.shutdown()
+
+
+def own_parameters(node: Node) -> list[str]:
+    """Names of the parameters that not every node has, in the order of their declaration."""
+    of_ros = ('use_sim_time', 'start_type_description_service', 'qos_overrides')
+    return [name for name in node._parameters if not name.startswith(of_ros)]
 
 
 if __name__ == '__main__':

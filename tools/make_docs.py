@@ -16,6 +16,7 @@ from pathlib import Path
 
 import list_driver_parameters
 import list_entities
+import list_parameters
 import list_permissions
 import validate.figure
 import validate.tables
@@ -43,6 +44,7 @@ FIGURES = {
 TOOLS = {
     'tools/list_driver_parameters.py': list_driver_parameters.main,
     'tools/list_entities.py': list_entities.main,
+    'tools/list_parameters.py': list_parameters.main,
     'tools/list_permissions.py': list_permissions.main,
     'tools/validate/tables.py': validate.tables.main,
 }

@@ -70,6 +70,16 @@ CONDITIONS = (
         ('mass',),
         ('cable_offset', 'friction_coefficient'),
     ),
+    Condition(
+        'base at 0° and ±60°, 0.4 to 1.2 N, 100 slips',
+        SessionPlan(slips=100, totals=(0.4, 1.2), tilts=(0.0, SIXTY, -SIXTY)),
+    ),
+    Condition(
+        'weight of 0.4 N at the tip in half of them, 0.8 to 1.6 N, 100 slips',
+        SessionPlan(
+            slips=100, totals=(0.8, 1.6), tip_forces=((0.0, 0.0), (0.0, -0.4)), tip_distance=0.016
+        ),
+    ),
 )
 
 

@@ -51,7 +51,7 @@ FAULTS = {
 DROPS = {
     'not finite': ('nan_burst',),
     'implausible': ('implausible',),
-    'wrong length and missing cable': ('wrong_length',),
+    'wrong length and unpaired': ('wrong_length',),
     'out of order and repeated stamp': ('out_of_order', 'repeated_stamp'),
 }
 """Reasons of the estimator → faults of the driver"""
@@ -149,7 +149,9 @@ def report(
 ) -> int:
     """Print the books; return 1 if they do not balance."""
     good = sent['good'] + sent['slack']
-    invalid = sent['nan_burst'] + sent['implausible'] + sent['wrong_length']
+    # Of cable l the name is missing too, so that its message waits for a partner in vain.
+    wrong = grown['dropped: wrong length']
+    invalid = sent['nan_burst'] + sent['implausible'] + wrong
     lines = [
         ('messages in', sent['messages'], grown['messages received']),
         ('pairs solved', good, grown['pairs solved']),

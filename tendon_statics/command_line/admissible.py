@@ -11,8 +11,7 @@ from .options import (
     add_format_option,
     add_load_options,
     add_tension_options,
-    design_from,
-    load_from,
+    design_and_load,
     print_json,
 )
 
@@ -27,9 +26,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Print the intervals."""
-    intervals = admissible_angles(
-        design_from(options), options.tension_l, options.tension_s, load_from(options)
-    )
+    design, load = design_and_load(options)
+    intervals = admissible_angles(design, options.tension_l, options.tension_s, load)
     if options.format == 'json':
         print_json({'admissible_angles': intervals})
     elif not intervals:

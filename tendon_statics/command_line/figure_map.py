@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..physics import EquilibriumBatch, Regime
+from ..physics import UPRIGHT, EquilibriumBatch, Load, Regime
 from ..physics.batch import REGIME_CODES
 from ..recordings.recording import Floats
-from .options import add_design_option, load_from
+from .options import add_design_option
 from .pair_options import setting_title
 from .sweep import add_grid_options, grid_from
 
@@ -95,7 +95,8 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
         drawing.colorbar(mesh, label=quantity.label)
     for side, sign in (('s', 1.0), ('l', -1.0)):
         _name_stop(axes, answers, side, sign)
-    drawing.suptitle('\n'.join(setting_title(answers.design, load_from(options))), fontsize=10)
+    load = answers.load if isinstance(answers.load, Load) else UPRIGHT  # one for all, from options
+    drawing.suptitle('\n'.join(setting_title(answers.design, load)), fontsize=10)
     axes.set_xlabel('tension of cable l, T_l [N]')
     axes.set_ylabel('tension of cable s, T_s [N]')
     if patches:

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..physics import JointDesign, Regime
-from ..recordings.replay.estimates import INVALID, Replay
-from .figures import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION
+from ..estimation.regimes import INVALID, REGIME_COLOURS
+from ..physics import JointDesign
+from ..recordings.replay.estimates import Replay
+from .figures import BLUE, GREY, VERMILION
 from .options import add_design_option, add_load_options, add_tension_stddev_option
 from .recording_options import (
     add_recording_options,
@@ -28,14 +29,7 @@ SIZE = (7.2, 6.4)
 MANY = 5000
 """Samples above which they are drawn as an image, so that the file stays small"""
 
-REGIME_COLOURS = {
-    Regime.HELD.value: SKY,
-    Regime.EQUILIBRIUM.value: VERMILION,
-    Regime.SLIPPING.value: GREEN,
-    Regime.DRIVEN_TO_STOP.value: ORANGE,
-    Regime.SLACK.value: GREY,
-    INVALID: 'black',
-}
+_COLOURS = {regime.value: colour for regime, colour in REGIME_COLOURS.items()}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -121,7 +115,7 @@ def _draw_regimes(axes: Axes, times: Any, replayed: Replay) -> None:
     """Draw a strip with the colour of the regime of each sample until the next."""
     handles = []
     ends = np.append(times[1:], times[-1])
-    for regime, colour in REGIME_COLOURS.items():
+    for regime, colour in {**_COLOURS, INVALID: 'black'}.items():
         where = replayed.regime == regime
         if not where.any():
             continue

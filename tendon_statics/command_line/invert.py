@@ -10,8 +10,7 @@ from .options import (
     add_design_option,
     add_format_option,
     add_load_options,
-    design_from,
-    load_from,
+    design_and_load,
     print_json,
 )
 
@@ -36,12 +35,13 @@ def run(options: argparse.Namespace) -> None:
     angle = options.bend_angle
     if angle is None:
         angle = math.radians(options.bend_angle_deg)
+    design, load = design_and_load(options)
     tensions = tensions_for(
-        design_from(options),
+        design,
         angle,
         pressure=options.pressure,
         total_tension=options.total_tension,
-        load=load_from(options),
+        load=load,
     )
     if options.format == 'json':
         print_json(tensions._asdict())

@@ -25,7 +25,7 @@ VERBS = {
     'sweep': 'a map of the answers over both cable tensions, as a file',
     'track': 'follow the unit, with memory, through the tensions of a CSV file',
     'invert': 'the tensions at which the unit is about to slip at a bend angle',
-    'paper': "the paper's published case: errata, identified values and sign check, as tables",
+    'paper': "the paper's published case: bisection, errata, identified values, signs, other laws",
     'design': 'check a design file and show what is in it',
     'plot': 'figures: Eq. (4), the unit, its hysteresis, maps, recordings, calibrations',
 }

@@ -44,6 +44,12 @@ def design_from(options: argparse.Namespace) -> JointDesign:
     return unit_from(options).design
 
 
+def design_and_load(options: argparse.Namespace) -> tuple[JointDesign, Load]:
+    """Return that design, and what acts on the unit beside its cables."""
+    unit = unit_from(options)
+    return unit.design, load_from(options, unit)
+
+
 def _full_name(node: str) -> str:
     return node if not node or node.startswith('/') else f'/{node}'
 
@@ -88,7 +94,9 @@ def tension_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
 def add_load_options(parser: argparse.ArgumentParser) -> None:
     """Add what acts on the unit beside its cables: tilt or gravity, and a force at the tip."""
     group = parser.add_argument_group(
-        'load', 'beside the cables, in the joint frame; default: upright, nothing at the tip'
+        'load',
+        'beside the cables, in the joint frame; default: gravity_direction of the design file, or '
+        'upright, and nothing at the tip',
     )
     direction = group.add_mutually_exclusive_group()
     direction.add_argument(
@@ -116,30 +124,36 @@ def add_load_options(parser: argparse.ArgumentParser) -> None:
         '--tip-distance',
         type=_finite,
         metavar='M',
-        help="where it acts along the unit's axis, in m from the centre of the ball",
+        help="where it acts along the unit's axis, in m from the centre of the ball; default: "
+        'tip_distance of the design file',
     )
 
 
-def load_from(options: argparse.Namespace) -> Load:
-    """Return the load that the options name.
+def load_from(options: argparse.Namespace, unit: Unit) -> Load:
+    """Return the load that the options name, or the design file for what they leave open.
 
     Raises
     ------
     UsageError
-        If only one of tip force and distance is given.
+        If a tip distance is given without a force, or it is not said where the force acts.
     LoadError
         If the direction of gravity is of length zero, or a number too large.
     """
     force, distance = options.tip_force, options.tip_distance
-    if (force is None) != (distance is None):
-        given, missing = ('force', 'distance') if distance is None else ('distance', 'force')
-        raise UsageError(f'--tip-{given} is given without --tip-{missing}; the two go together')
-    tip = ((0.0, 0.0), 0.0) if force is None else (tuple(force), distance)
-    if options.gravity_direction is not None:
-        return Load(tuple(options.gravity_direction), *tip)
-    if options.base_tilt_deg is None:
-        return Load(UPRIGHT.gravity_direction, *tip)
-    return Load.tilted(math.radians(options.base_tilt_deg), *tip)
+    if force is None and distance is not None:
+        raise UsageError('--tip-distance is given without --tip-force, whose place it is')
+    if distance is None:
+        distance = unit.get('tip_distance')
+    if force is not None and distance is None:
+        raise UsageError(
+            "--tip-force is given, but not where along the unit's axis it acts: say "
+            '--tip-distance, in m, or tip_distance in the design file'
+        )
+    tip = ((0.0, 0.0), 0.0) if force is None else (tuple(force), float(distance or 0.0))
+    if options.base_tilt_deg is not None:
+        return Load.tilted(math.radians(options.base_tilt_deg), *tip)
+    direction = options.gravity_direction or unit.get('gravity_direction')
+    return Load(tuple(direction or UPRIGHT.gravity_direction), *tip)
 
 
 def _finite(text: str) -> float:

@@ -11,8 +11,7 @@ from .options import (
     add_design_option,
     add_load_options,
     add_tension_options,
-    design_from,
-    load_from,
+    design_and_load,
 )
 
 
@@ -25,8 +24,8 @@ def add_pair_options(parser: argparse.ArgumentParser) -> None:
 
 def pair_from(options: argparse.Namespace) -> tuple[JointDesign, Equilibrium]:
     """Return the design and its answer to the two tensions."""
-    design = design_from(options)
-    equilibrium = solve(design, options.tension_l, options.tension_s, load_from(options))
+    design, load = design_and_load(options)
+    equilibrium = solve(design, options.tension_l, options.tension_s, load)
     if equilibrium.regime is Regime.SLACK:
         raise UsageError('there is nothing to draw: a cable is slack, which is outside the model')
     return design, equilibrium

@@ -53,7 +53,7 @@ def _bisection(design: JointDesign) -> str:
         [
             ("plain bisection to 1e-10 rad, the paper's", str(halvings), f'{angle:.10f}'),
             (
-                '`solve`: Newton steps, the same bracket at the end',
+                '`solve`: steps by a cubic, to such a bracket too',
                 str(answer.iterations),
                 f'{answer.bend_angle:.10f}',
             ),

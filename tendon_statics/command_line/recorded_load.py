@@ -29,7 +29,7 @@ def recorded_load(options: argparse.Namespace, unit: Unit, recording: Recording)
             '--gravity-direction are for recordings that do not'
         )
     if recording.tip_force_x is None and recording.tip_force_z is None:
-        return load_from(options)
+        return load_from(options, unit)
     if options.tip_force is not None:
         raise UsageError(
             f'{recording.name} has the force at the tip in it; --tip-force is for recordings that '
@@ -43,4 +43,4 @@ def recorded_load(options: argparse.Namespace, unit: Unit, recording: Recording)
             'axis by --tip-distance, in m, or by tip_distance in the design file'
         )
     said = {**vars(options), 'tip_force': (0.0, 0.0), 'tip_distance': float(distance)}
-    return load_from(argparse.Namespace(**said))
+    return load_from(argparse.Namespace(**said), unit)

@@ -7,8 +7,8 @@ import re
 import sys
 from pathlib import Path
 
+from ..files.cable_parameters import TENSION_SOURCES
 from ..files.unit_file import Unit
-from ..files.unit_parameters import TENSION_SOURCES
 from ..recordings.hints import hints
 from ..recordings.reading.clock import CLOCKS
 from ..recordings.reading.load import ENDINGS, load_recording

@@ -6,9 +6,9 @@ import argparse
 from collections.abc import Callable
 from pathlib import Path
 
+from ..files.estimator_parameters import ESTIMATIONS
 from ..files.output_file import OutputError
 from ..files.unit_file import Unit
-from ..files.unit_parameters import ESTIMATIONS
 from ..physics import JointDesign
 from ..recordings.progress import Progress
 from ..recordings.recording import Recording
@@ -102,6 +102,7 @@ def replay_from(
         design,
         recording,
         options.estimation or unit.get('estimation') or ESTIMATIONS[0],
+        settings=unit.settings,
         load=recorded_load(options, unit, recording),
         initial_bend_angle=initial_bend_angle_from(options, unit),
         tension_stddev=tension_stddev_from(options, unit),

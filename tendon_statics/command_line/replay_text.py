@@ -84,7 +84,8 @@ def _angle_facts(replay: Replay) -> Facts:
         facts.append(
             (
                 'not assured',
-                f'{unsure} of these angles: a cable had been slack, so the unit may have moved',
+                f'{unsure} of these angles: after a slack cable, a gap or the like the unit may '
+                'have moved',
             )
         )
     measured = replay.recording.bend_angle

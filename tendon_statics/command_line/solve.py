@@ -13,8 +13,7 @@ from .options import (
     add_load_options,
     add_tension_options,
     add_tension_stddev_option,
-    design_from,
-    load_from,
+    design_and_load,
     print_json,
 )
 from .tables import fact_lines
@@ -38,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Solve and print."""
-    design, load = design_from(options), load_from(options)
+    design, load = design_and_load(options)
     equilibrium = solve(design, options.tension_l, options.tension_s, load)
     if options.format == 'json':
         print_json(

@@ -13,7 +13,7 @@ from ..files.output_file import OutputError
 from ..physics import EquilibriumBatch
 from ..physics.batch import solve_batch
 from ..recordings.replay.table_output import write_arrays, write_table
-from .options import UsageError, add_design_option, add_load_options, design_from, load_from
+from .options import UsageError, add_design_option, add_load_options, design_and_load
 from .progress import with_progress
 from .tables import markdown_table
 
@@ -66,9 +66,8 @@ def grid_from(options: argparse.Namespace) -> EquilibriumBatch:
                 f'--{name.replace("_", "-")} is {low:g} to {high:g} N, which must rise from 0 on'
             )
         axes.append(np.linspace(low, high, options.points))
-    return solve_batch(
-        design_from(options), axes[0][:, None], axes[1][None, :], load_from(options)
-    )
+    design, load = design_and_load(options)
+    return solve_batch(design, axes[0][:, None], axes[1][None, :], load)
 
 
 def run(options: argparse.Namespace) -> None:

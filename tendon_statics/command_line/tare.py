@@ -127,13 +127,7 @@ def _text(unit: Unit, slack: Recording, tares: tuple[CableTare, CableTare]) -> s
     ]
     facts = [('data', slack.name), *(('read', note) for note in slack.notes)]
     for of in tares:
-        if abs(of.mean) > unit.design.weight:
-            facts.append(
-                (
-                    'warning',
-                    f'{of.cable} read {of.mean:.4g} N, more than the weight of the unit: if it '
-                    'was taut, this bias is wrong',
-                )
-            )
+        if doubt := of.doubt(unit.design.weight):
+            facts.append(('warning', doubt))
     lines = [f'    {of.cable}.bias: {of.bias!r}' for of in tares]
     return '\n\n'.join([fact_lines(facts), markdown_table(TITLES, rows), '\n'.join(lines)])

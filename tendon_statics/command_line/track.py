@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from ..recordings.replay.estimates import replay
 from ..recordings.replay.table_output import write_csv
-from .options import add_design_option, add_load_options, load_from
+from .options import add_design_option, add_load_options
 from .progress import with_progress
+from .recorded_load import recorded_load
 from .recording_options import (
     add_recording_options,
     report_damage,
@@ -36,7 +37,8 @@ def run(options: argparse.Namespace) -> int:
         unit.design,
         recording,
         'tracking',
-        load=load_from(options),
+        settings=unit.settings,
+        load=recorded_load(options, unit, recording),
         initial_bend_angle=initial_bend_angle_from(options, unit),
         progress=with_progress,
     )

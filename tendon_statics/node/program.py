@@ -22,18 +22,14 @@ class StartError(TendonStaticsError):
 
 def estimator(arguments: Sequence[str] | None = None) -> int:
     """Run the estimator; the entry point of ``ros2 run tendon_statics estimator``."""
-    return _run('estimator', 'Estimator', arguments)
+    return run('estimator', f'{__package__}.estimator', 'Estimator', arguments)
 
 
-def pulley_driver(arguments: Sequence[str] | None = None) -> int:
-    """Run the driver; the entry point of ``ros2 run tendon_statics pulley_driver``."""
-    return _run('pulley_driver', 'PulleyDriver', arguments)
-
-
-def _run(name: str, node_class: str, arguments: Sequence[str] | None) -> int:
+def run(name: str, module: str, node_class: str, arguments: Sequence[str] | None) -> int:
     """Run a node until SIGINT, SIGTERM or shutdown of the context; return the exit code.
 
-    A node that cannot start, say for a bad parameter, is one line on stderr and exit code 1.
+    Its module is imported here, for that is slow. A node that cannot start, say for a bad
+    parameter, is one line on stderr and exit code 1.
     """
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _exit_at_once)
@@ -45,7 +41,7 @@ def _run(name: str, node_class: str, arguments: Sequence[str] | None) -> int:
 
         from ..files.parameter_file import ESTIMATOR, check_parameter_files
 
-        make_node = getattr(import_module(f'{__package__}.{name}'), node_class)
+        make_node = getattr(import_module(module), node_class)
     except ImportError as error:
         return _say(name, f'it needs ROS 2, and {error}')
     arguments = sys.argv if arguments is None else arguments

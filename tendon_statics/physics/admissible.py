@@ -106,8 +106,9 @@ def angles_held(slip: Slip, stop: float) -> list[Interval]:
 def _angles_below_limit(slip: Slip, stop: float) -> list[Interval]:
     """Angles ahead with g ≤ 0, where the unit does not slip to the side of the function."""
     # Cut at 0, as `solve` searches, so that its root is the same to the last bit.
-    halves = [*slip.brackets(-stop, 0.0), *slip.brackets(0.0, stop)]
-    roots = list(dict.fromkeys(refine(slip, bracket)[0] for bracket in halves))
+    ends = slip.probe(-stop), slip.probe(0.0), slip.probe(stop)
+    halves = [bracket for low, high in pairwise(ends) for bracket in slip.brackets(low, high)]
+    roots = list(dict.fromkeys(refine(slip, bracket)[0][0] for bracket in halves))
     found: list[Interval] = []
     for low, high in pairwise([-stop, *roots, stop]):
         if low < high and slip.value(0.5 * (low + high)) <= 0.0:

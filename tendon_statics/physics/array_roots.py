@@ -11,16 +11,16 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from .roots import ANGLE_TOLERANCE
+from .roots import ANGLE_TOLERANCE, cubic_zero
 
 CUTS = 12
 """How often an interval is halved at the most"""
 
 STEPS = 20
-"""Steps towards a root at the most; Newton's method takes five or so"""
+"""Steps towards a root at the most; three or four are enough as a rule"""
 
-STILL = 1e-12
-"""Step in rad after which the next is not worth taking"""
+STILL = 1e-6
+"""Step in rad after which the next is not worth taking: each is some square of the one before"""
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -28,18 +28,18 @@ Indices = NDArray[np.intp]
 
 
 class ArrayFunction(Protocol):
-    """Functions of one variable, one a row."""
+    """Functions of one variable, one a row; a probe has a line for each thing it knows of them.
 
-    def values(self, rows: Indices | slice, places: Floats | float) -> Floats:
-        """Return the functions of some rows, each at a place of its own, or all at one."""
+    The first three are place, value and slope, as in `roots`.
+    """
 
-    def values_and_slopes(self, rows: Indices | slice, places: Floats) -> tuple[Floats, Floats]:
-        """Return the functions and their slopes."""
+    def probe(self, rows: Indices | slice, places: Floats | float) -> Floats:
+        """Look at the functions of some rows, each at a place of its own, or all at one."""
 
     def slope_bounds(
-        self, rows: Indices | slice, middles: Floats, half_width: float
+        self, rows: Indices | slice, one: Floats, other: Floats
     ) -> tuple[Floats, Floats]:
-        """Return bounds of the slopes over intervals of one width."""
+        """Return bounds of the slopes between two probes."""
 
 
 class Brackets(NamedTuple):
@@ -47,7 +47,8 @@ class Brackets(NamedTuple):
 
     root_count: NDArray[np.int64]
     low: Floats
-    """Lower end of the bracket of the lowest root; infinite where there is none"""
+    """Place, value and slope at the lower end of the bracket of the lowest root, shape (3, rows);
+    infinite where there is none"""
     high: Floats
     at_low: Floats
     """The function at the lower end of the interval that was searched"""
@@ -57,34 +58,30 @@ class Brackets(NamedTuple):
 def array_brackets(function: ArrayFunction, count: int, low: float, high: float) -> Brackets:
     """Bracket the lowest root of each of so many rows between two places, and count all."""
     rows: Any = slice(None)
-    roots, lows, highs = np.zeros(count, np.int64), np.full(count, np.inf), np.full(count, np.inf)
-    at_left, at_right = function.values(rows, low), function.values(rows, high)
-    left, right = np.full(count, low), np.full(count, high)
-    at_low = at_left
+    roots = np.zeros(count, np.int64)
+    lows, highs = np.full((2, 3, count), np.inf)
+    left, right = function.probe(rows, low), function.probe(rows, high)
+    at_low = left[1]
     unresolved = at_low == 0.0
-    half_width = 0.5 * (high - low)
-    for _ in range(CUTS):
-        middle = 0.5 * (left + right)
-        least, greatest = function.slope_bounds(rows, middle, half_width)
+    for cut in range(CUTS + 1):
+        least, greatest = function.slope_bounds(rows, left, right)
         settled = (least > 0.0) | (greatest < 0.0)
-        crossing = settled & _change_sign(at_left, at_right)
-        rows = np.arange(count)[rows]
-        at = rows[crossing]
+        (crossing,) = np.nonzero(settled & _change_sign(left[1], right[1]))
+        (still,) = np.nonzero(~settled & _may_vanish(left, right, least, greatest))
+        at = crossing if cut == 0 else rows[crossing]
         np.add.at(roots, at, 1)
-        np.minimum.at(lows, at, left[crossing])
-        nearest = lows[at] == left[crossing]
-        highs[at[nearest]] = right[crossing][nearest]
-        still = ~settled & _may_vanish(at_left, at_right, least, greatest, 2.0 * half_width)
-        rows, left, right, middle = rows[still], left[still], right[still], middle[still]
-        at_left, at_right = at_left[still], at_right[still]
-        if not len(rows):
+        np.minimum.at(lows[0], at, left[0, crossing])
+        nearest = lows[0, at] == left[0, crossing]
+        at, crossing = at[nearest], crossing[nearest]
+        lows[:, at], highs[:, at] = left[:3, crossing], right[:3, crossing]
+        rows = still if cut == 0 else rows[still]
+        if not len(rows) or cut == CUTS:
             break
-        at_middle = function.values(rows, middle)
+        left, right = left[:, still], right[:, still]
+        middle = function.probe(rows, 0.5 * (left[0] + right[0]))
         rows = np.concatenate([rows, rows])
-        left, right = np.concatenate([left, middle]), np.concatenate([middle, right])
-        at_left = np.concatenate([at_left, at_middle])
-        at_right = np.concatenate([at_middle, at_right])
-        half_width *= 0.5
+        left = np.concatenate([left, middle], axis=1)
+        right = np.concatenate([middle, right], axis=1)
     unresolved[rows] = True
     return Brackets(roots, lows, highs, at_low, unresolved)
 
@@ -97,42 +94,44 @@ class Roots(NamedTuple):
     unresolved: Flags
 
 
-def array_refine(function: ArrayFunction, rows: Indices, low: Floats, high: Floats) -> Roots:
+def array_refine(function: ArrayFunction, low: Floats, high: Floats) -> Roots:
     """Find the root in the bracket of each row, and prove it as `roots.refine` does.
 
-    Newton's method, kept within a shrinking bracket, comes close. Then the function must change
-    sign over a bracket as narrow as that one's last, and the root is where its chord is zero.
+    The same steps come close. Then the function must change sign over a bracket as narrow as that
+    one's last, and the root is where its chord is zero.
     """
-    near, steps = _newton(function, rows, low, high)
-    low = np.maximum(near - 0.5 * ANGLE_TOLERANCE, low)
-    high = np.minimum(near + 0.5 * ANGLE_TOLERANCE, high)
-    at_low, at_high = function.values(rows, low), function.values(rows, high)
-    proven = (at_low * at_high <= 0.0) & (at_low != at_high)
-    root = high - at_high * (high - low) / (at_high - at_low)
-    return Roots(np.clip(root, low, high), steps, ~proven)
+    rows = slice(None)
+    near, steps = _approach(function, low, high)
+    before = np.maximum(near - 0.5 * ANGLE_TOLERANCE, low[0])
+    after = np.minimum(near + 0.5 * ANGLE_TOLERANCE, high[0])
+    at_before, at_after = function.probe(rows, before)[1], function.probe(rows, after)[1]
+    proven = (at_before * at_after <= 0.0) & (at_before != at_after)
+    root = after - at_after * (after - before) / (at_after - at_before)
+    return Roots(np.clip(root, before, after), steps, ~proven)
 
 
-def _newton(
-    function: ArrayFunction, rows: Indices, low: Floats, high: Floats
+def _approach(
+    function: ArrayFunction, low: Floats, high: Floats
 ) -> tuple[Floats, NDArray[np.int64]]:
     """Return a place near the root in each bracket, and the steps taken."""
-    at_low, at_high = function.values(rows, low), function.values(rows, high)
-    rising = at_low < at_high
-    place = high - at_high * (high - low) / (at_high - at_low)
-    steps = np.zeros(len(place), np.int64)
+    rows: Any = slice(None)
+    ahead = cubic_zero(low, high)
+    near, steps = ahead.copy(), np.zeros(len(ahead), np.int64)
     for _ in range(STEPS):
-        value, slope = function.values_and_slopes(rows, place)
-        below = (value < 0.0) == rising
-        low, high = np.where(below, place, low), np.where(below, high, place)
-        ahead = place - value / slope
-        inside = (ahead >= low) & (ahead <= high)
-        ahead = np.where(inside, ahead, 0.5 * (low + high))
-        moving = np.abs(ahead - place) > STILL
-        place = ahead
-        steps += 1
-        if not moving.any():
+        inside = (ahead >= low[0]) & (ahead <= high[0])
+        place = np.where(inside, ahead, 0.5 * (low[0] + high[0]))
+        probe = function.probe(rows, place)[:3]
+        below = (probe[1] < 0.0) == (low[1] < high[1])
+        low, high = np.where(below, probe, low), np.where(below, high, probe)
+        ahead = cubic_zero(low, high)
+        near[rows] = ahead
+        steps[rows] += 1
+        (moving,) = np.nonzero(~(np.abs(ahead - place) <= STILL))
+        if not len(moving):
             break
-    return place, steps
+        rows = moving if isinstance(rows, slice) else rows[moving]
+        low, high, ahead = low[:, moving], high[:, moving], ahead[moving]
+    return near, steps
 
 
 def _change_sign(before: Floats, after: Floats) -> Flags:
@@ -141,10 +140,9 @@ def _change_sign(before: Floats, after: Floats) -> Flags:
     return flags
 
 
-def _may_vanish(
-    at_left: Floats, at_right: Floats, least: Any, greatest: Any, width: float
-) -> Flags:
+def _may_vanish(left: Floats, right: Floats, least: Any, greatest: Any) -> Flags:
     """Whether functions with slopes within these bounds, of both signs, can have a zero."""
+    at_left, at_right, width = left[1], right[1], right[0] - left[0]
     sign = np.sign(at_left)
     least, greatest = (
         np.where(sign > 0.0, least, -greatest),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import Any
@@ -11,15 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .array_numbers import ARRAYS
 from .array_roots import Floats, array_brackets, array_refine
-from .contact.law import LoadShare, Turn
 from .design import JointDesign
 from .errors import LoadError, TensionError
-from .forces import Contact, ContactForces, ForceRemainder, contact_at
-from .gradients import ByCable, TensionGradient, angle_by_tensions, normal_by_tensions, of_sides
+from .forces import ContactForces, ForceRemainder, contact_forces
+from .gradients import TensionGradient, angle_by_tensions, normal_by_tensions, of_sides
 from .load import UPRIGHT, DeadLoad, Load, tension_excess
-from .moment import Moment
-from .slip import Slip, SlipPoint
+from .slip import LoadedJoint, Slip, SlipPoint
 from .solver import solve
 from .state import Regime
 from .tensions import MAX_TENSION
@@ -83,23 +81,22 @@ class EquilibriumBatch:
         with np.errstate(all='ignore'):
             for part, slip, point in self._points():
                 flat[part] = slip.side * point.moment / point.capacity
-        return margins
+        return np.where(np.isnan(self.bend_angle), np.nan, margins)
 
     @property
     def forces(self) -> ContactForces:
         """The forces on the joint surface in N."""
-        return self._contact.forces
+        return self._contact[0]
 
     @property
     def force_remainder(self) -> ForceRemainder:
         """What Eqs. (1) and (2) leave over, one by one, in N."""
-        return self._contact.remainder
+        return self._contact[1]
 
     @property
     def branch_consistent(self) -> NDArray[np.bool_]:
         """Whether Eqs. (1) and (2) ask for the contact force taken."""
-        flags: Any = self._contact.consistent
-        return flags  # type: ignore[no-any-return]
+        return self._contact[2]
 
     @property
     def bend_angle_gradient(self) -> TensionGradient:
@@ -124,43 +121,43 @@ class EquilibriumBatch:
         return deviation
 
     @cached_property
-    def _contact(self) -> Contact:
+    def _contact(self) -> tuple[ContactForces, ForceRemainder, NDArray[np.bool_]]:
         shape = self.bend_angle.shape
-        numbers: Any = np.empty((6, *shape))
-        consistent: Any = np.empty(shape, np.bool_)
+        numbers: Any = np.full((6, *shape), np.nan)
+        consistent: Any = np.zeros(shape, np.bool_)
         rows, flags = numbers.reshape(6, -1), consistent.reshape(-1)
         with np.errstate(all='ignore'):
-            for part, slip, point in self._points():
-                contact = contact_at(slip, point, point.capacity)
-                rows[:, part] = (*contact.forces, *contact.remainder)
-                flags[part] = contact.consistent
-        return Contact(
-            self.normal_force,
-            ContactForces(*numbers[:4]),
-            ForceRemainder(*numbers[4:]),
-            consistent,
-        )
+            for at, slip, point in self._points():
+                state, limit = point.state, point.capacity
+                normal = slip.law.normal(state, limit)
+                forces, remainder = contact_forces(slip, point, limit, normal)
+                rows[:, at] = (*forces, *remainder)
+                flags[at] = slip.law.consistent(state, limit)
+        return ContactForces(*numbers[:4]), ForceRemainder(*numbers[4:]), consistent
 
     @cached_property
     def _gradients(self) -> tuple[TensionGradient, TensionGradient]:
-        numbers: Any = np.empty((4, *self.bend_angle.shape))
+        numbers: Any = np.full((4, *self.bend_angle.shape), np.nan)
         rows = numbers.reshape(4, -1)
         regimes = self.regime.reshape(-1)
         with np.errstate(all='ignore'):
-            for part, slip, point in self._points():
-                at_stop = regimes[part] == REGIME_CODES[Regime.DRIVEN_TO_STOP]
-                rows[:, part] = _gradients_of(self.design, slip, point, at_stop)
+            for at, slip, point in self._points():
+                at_stop = regimes[at] == REGIME_CODES[Regime.DRIVEN_TO_STOP]
+                rows[:, at] = _gradients_of(self.design, slip, point, at_stop)
         return TensionGradient(*numbers[:2]), TensionGradient(*numbers[2:])
 
-    def _points(self) -> Iterator[tuple[slice, Slip, SlipPoint]]:
-        """Walk through the results: yield a slice, and the slip functions at their angles."""
-        for part, (tension_l, tension_s, angle, *dead) in _chunks(
+    def _points(self) -> Iterator[tuple[NDArray[np.intp], Slip, SlipPoint]]:
+        """Walk through the pairs with an angle: yield where they are, and the slip functions."""
+        for part, chunk in _chunks(
             *(self.tension_l, self.tension_s, self.bend_angle),
             *_dead_arrays(self.design, self.load),
         ):
-            slip = _facing_slips(self.design, self.load, tension_l, tension_s, dead)
-            ahead = np.abs(angle)
-            yield part, slip, slip.at_turn(ahead, *_turn(ahead))
+            (known,) = np.nonzero(~np.isnan(chunk[2]))
+            tension_l, tension_s, angle, *dead = (values[known] for values in chunk)
+            at = known + part.start
+            load = self.load if isinstance(self.load, Load) else self.load.reshape(-1)[at]
+            slip = _facing_slips(self.design, load, tension_l, tension_s, dead)
+            yield at, slip, slip.at(np.abs(angle))
 
 
 def solve_batch(
@@ -304,15 +301,9 @@ def _facing_slips(
         excess[index] = tension_excess(
             *(design, its_load, float(its_size)), float(tension_l[index]), float(tension_s[index])
         )
-    slips = Slip.towards_s(design, of_load, excess, tension_l, tension_s)
-    return slips.facing(np.where(tension_l > tension_s, -1.0, 1.0))
-
-
-def _turn(angle: Floats | float) -> tuple[Any, Any]:
-    """Cosine and sine; of one angle as `math` has them, since a last bit may decide a regime."""
-    if isinstance(angle, float):
-        return math.cos(angle), math.sin(angle)
-    return np.cos(angle), np.sin(angle)
+    side = np.where(tension_l > tension_s, -1.0, 1.0)
+    joint = LoadedJoint.of(design, of_load)
+    return Slip(joint, excess, tension_l, tension_s, side, ARRAYS)
 
 
 class _Rows:
@@ -323,31 +314,18 @@ class _Rows:
 
     def of(self, rows: Any) -> Slip:
         """Return the slip functions of some of the pairs."""
-        slip = self.slip
+        return self.slip if isinstance(rows, slice) else self.slip.part(rows)
 
-        def part(values: Any) -> Any:
-            return values[rows] if np.ndim(values) else values
+    def probe(self, rows: Any, places: Floats | float) -> Floats:
+        slip = self.of(rows)
+        *known, state = slip.probe(places)
+        lines = np.empty((len(known) + len(state), len(slip.total)))
+        for line, values in zip(lines, (*known, *state), strict=True):
+            line[:] = values
+        return lines
 
-        return Slip(
-            slip.law,
-            LoadShare(*map(part, slip.load)),
-            (part(slip.tilt[0]), part(slip.tilt[1])),
-            Moment(*map(part, slip.moment)),
-            part(slip.total),
-            part(slip.side),
-        )
-
-    def values(self, rows: Any, places: Floats | float) -> Floats:
-        values: Floats = self.of(rows).value_turn(places, *_turn(places))
-        return values
-
-    def values_and_slopes(self, rows: Any, places: Floats) -> tuple[Floats, Floats]:
-        point = self.of(rows).at_turn(places, *_turn(places))
-        return point.excess, point.slope
-
-    def slope_bounds(self, rows: Any, middles: Floats, half_width: float) -> tuple[Floats, Floats]:
-        turn = Turn.by(half_width)
-        return self.of(rows).slope_bounds_turn(np.cos(middles), np.sin(middles), turn)
+    def slope_bounds(self, rows: Any, one: Floats, other: Floats) -> tuple[Floats, Floats]:
+        return self.of(rows).slope_bounds(*((*ends[:8], tuple(ends[8:])) for ends in (one, other)))
 
 
 def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
@@ -363,12 +341,12 @@ def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
             design, load, tension_l[taut], tension_s[taut], [part[taut] for part in dead]
         )
     )
-    light = rows.slip.load.excess > 0.0
+    light = rows.slip.excess > 0.0
     if not light.all():
         if design.law.carries_more_than_cables:
             for index in taut[~light]:
                 _solve_one(chunk, index)
-        taut, rows = taut[light], _Rows(rows.of(light))
+        taut, rows = taut[light], _Rows(rows.slip.part(light))
     stop = design.max_bend_angle
     found = array_brackets(rows, len(taut), 0.0, stop)
     counts = np.where(rows.slip.is_determined, found.root_count, 0)
@@ -378,13 +356,14 @@ def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
 
     (at_stop,) = np.nonzero(driven)
     chunk.regime[taut[at_stop]] = REGIME_CODES[Regime.DRIVEN_TO_STOP]
-    _fill(chunk, taut[at_stop], rows.of(at_stop), stop)
+    _fill(chunk, taut[at_stop], rows.slip.part(at_stop), stop)
     chunk.stable[taut[at_stop]] = True
 
     (rooted,) = np.nonzero(counts)
     chunk.regime[taut[rooted]] = REGIME_CODES[Regime.EQUILIBRIUM]
-    roots = array_refine(rows, rooted, found.low[rooted], found.high[rooted])
-    point = _fill(chunk, taut[rooted], rows.of(rooted), roots.places)
+    slip = rows.slip.part(rooted)
+    roots = array_refine(_Rows(slip), found.low[:, rooted], found.high[:, rooted])
+    point = _fill(chunk, taut[rooted], slip, roots.places)
     chunk.stable[taut[rooted]] = point.slope < 0.0
     chunk.iterations[taut[rooted]] = roots.steps
 
@@ -398,10 +377,9 @@ def _fill(
     chunk: EquilibriumBatch, at: NDArray[Any], slip: Slip, ahead: Floats | float
 ) -> SlipPoint:
     """Fill in what follows from the angles ahead, in rad; return the slip functions there."""
-    point = slip.at_turn(ahead, *_turn(ahead))
-    contact = slip.law.contact(slip.load, point.cosine, point.sine, point.capacity)
+    point = slip.at(ahead)
     chunk.bend_angle[at] = slip.side * ahead
-    chunk.normal_force[at] = slip.total * contact.normal
+    chunk.normal_force[at] = slip.total * slip.law.normal(point.state, point.capacity)
     chunk.residual[at] = slip.total * point.excess / chunk.design.friction_coefficient
     return point
 
@@ -426,14 +404,14 @@ def _gradients_of(
 ) -> Floats:
     """∂θ/∂T_l, ∂θ/∂T_s, ∂p/∂T_l and ∂p/∂T_s of units that are about to slip, or at their stop."""
     lever = design.relative_lever
-    angle = angle_by_tensions(slip, point, lever)
-    angle = ByCable(*(np.where(at_stop, 0.0, by_cable) for by_cable in angle))
-    slopes = slip.law.normal_slopes(slip.load, point.cosine, point.sine, point.capacity)
+    behind, ahead = angle_by_tensions(slip, point, lever)
+    angle = np.where(at_stop, 0.0, behind), np.where(at_stop, 0.0, ahead)
+    slopes = slip.law.normal_slopes(point.state, point.capacity)
     normal = normal_by_tensions(slip, point, slopes, lever, angle=angle, at_limit=True)
     gradients = np.array(
         [
-            *of_sides(slip.side, angle, slip.side),
-            *(by / design.contact_area for by in of_sides(slip.side, normal)),
+            *of_sides(slip, angle, slip.side),
+            *(by / design.contact_area for by in of_sides(slip, normal)),
         ]
     )
     gradients[:, ~np.isfinite(gradients).all(axis=0)] = np.nan

@@ -208,12 +208,12 @@ class JointDesign:
 
     @cached_property
     def cable_lever(self) -> float:
-        """R + δ, in m: the lever of the cables about the centre of the ball."""
+        """Lever r + δ of the cables about the centre of the ball, in m."""
         return self.ball_radius + self.cable_offset
 
     @cached_property
     def relative_lever(self) -> float:
-        """(r + δ) / r."""
+        """That lever in radii of the ball, (r + δ) / r."""
         return self.cable_lever / self.ball_radius
 
     @cached_property

@@ -99,7 +99,8 @@ class DesignUncertainty:
         """
         import numpy as np  # Here, for who only solves should not wait for it.
 
-        covariance = np.array(self.covariance).reshape(len(self.parameters), -1)
+        width = len(self.parameters)
+        covariance = np.array(self.covariance).reshape(width, width)
         scales = np.sqrt(np.clip(np.diag(covariance), 1e-300, None))
         correlation = covariance / np.outer(scales, scales)
         if not np.allclose(correlation, correlation.T, rtol=0.0, atol=ROUNDING):

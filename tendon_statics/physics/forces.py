@@ -47,6 +47,16 @@ class ContactForces(NamedTuple):
     friction_z: Any
     """F_fZ, friction, along Z"""
 
+    def as_dict(self) -> dict[str, Any]:
+        """Return `_asdict`, spelt out, which takes a fifth of the time."""
+        x, z, friction_x, friction_z = self
+        return {
+            'pressure_x': x,
+            'pressure_z': z,
+            'friction_x': friction_x,
+            'friction_z': friction_z,
+        }
+
 
 class ForceRemainder(NamedTuple):
     """What Eqs. (1) and (2) leave over, one by one, in N.
@@ -60,49 +70,43 @@ class ForceRemainder(NamedTuple):
     z: Any
     """(N − T) cos θ + F_fZ + P_z"""
 
-
-class Contact(NamedTuple):
-    """The contact between unit and ball, held against Eqs. (1) and (2); floats, or arrays."""
-
-    normal_force: Any
-    """N in N"""
-    forces: ContactForces
-    remainder: ForceRemainder
-    consistent: Any
-    """Whether Eqs. (1) and (2) ask for such forces"""
+    def as_dict(self) -> dict[str, Any]:
+        """Return `_asdict`, spelt out as that of `ContactForces`."""
+        x, z = self
+        return {'x': x, 'z': z}
 
 
-def contact_at(slip: Slip, point: SlipPoint, friction: Any) -> Contact:
-    """Return the contact of a unit at a point of its slip function.
+def contact_forces(
+    slip: Slip, point: SlipPoint, friction: Any, normal: Any
+) -> tuple[ContactForces, ForceRemainder]:
+    """Return the forces on a unit at a point of its slip function; floats, or arrays.
 
     Parameters
     ----------
     friction : float
         Moment that friction takes up in units of r T: M, or K where friction is at its limit and a
         stop takes the rest, as a couple.
+    normal : float
+        N / T for it.
     """
-    shares = slip.law.contact(slip.load, point.cosine, point.sine, friction)
-    total, share = slip.total, slip.load.share
+    (pressed, pushed), (lifted, dragged), (balanced, opposed) = slip.law.contact(
+        point.state, friction, normal
+    )
+    share, total, side = slip.share, slip.total, slip.side
     cosine, sine = point.turn
-
-    def to_frame(along: Any, across: Any) -> tuple[Any, Any]:
-        """From the unit's axis, and across it to the side of slip, to X and Z."""
-        return (
-            slip.side * total * (along * sine + across * cosine),
-            total * (along * cosine - across * sine),
-        )
-
-    (balanced, pressed), (lifted, dragged) = shares.balanced, shares.friction
-    pressure_x, pressure_z = to_frame(*shares.pressure)
-    friction_x, friction_z = to_frame(lifted, dragged)
-    return Contact(
-        total * shares.normal,
-        ContactForces(pressure_x, pressure_z, -friction_x, friction_z),
-        ForceRemainder(
-            *to_frame(
-                balanced + lifted - 1.0 - share * point.cosine,
-                pressed + dragged + share * point.sine,
-            )
+    left_along = balanced + lifted - 1.0 - share * point.cosine
+    left_across = opposed + dragged + share * point.sine
+    across = side * total
+    # From the unit's axis, and across it to the side of slip, to X and Z.
+    return (
+        ContactForces(
+            across * (pressed * sine + pushed * cosine),
+            total * (pressed * cosine - pushed * sine),
+            -across * (lifted * sine + dragged * cosine),
+            total * (lifted * cosine - dragged * sine),
         ),
-        shares.consistent,
+        ForceRemainder(
+            across * (left_along * sine + left_across * cosine),
+            total * (left_along * cosine - left_across * sine),
+        ),
     )

@@ -15,6 +15,11 @@ class TensionGradient(NamedTuple):
     tension_l: Any
     tension_s: Any
 
+    def as_dict(self) -> dict[str, Any]:
+        """Return `_asdict`, spelt out, which takes a fifth of the time."""
+        by_l, by_s = self
+        return {'tension_l': by_l, 'tension_s': by_s}
+
     def stddev(self, tension_stddev: float) -> float:
         """Standard deviation of the quantity, to first order.
 
@@ -37,11 +42,8 @@ def finite(gradient: TensionGradient) -> TensionGradient | None:
     return gradient if math.isfinite(by_l) and math.isfinite(by_s) else None
 
 
-class ByCable(NamedTuple):
-    """Derivatives by the tension of the cable behind the unit and of that ahead of it."""
-
-    behind: Any
-    ahead: Any
+ByCable = tuple[Any, Any]
+"""Derivatives by the tension of the cable behind the unit and of that ahead of it"""
 
 
 def slip_by_tensions(slip: Slip, point: SlipPoint, lever: float) -> ByCable:
@@ -52,22 +54,22 @@ def slip_by_tensions(slip: Slip, point: SlipPoint, lever: float) -> ByCable:
     lever : float
         (r + δ) / r.
     """
-    share = slip.load.share
+    share = slip.share
     common = share * point.by_share - point.moment
-    return ByCable((common - lever) / slip.total, (common + lever) / slip.total)
+    return (common - lever) / slip.total, (common + lever) / slip.total
 
 
 def angle_by_tensions(slip: Slip, point: SlipPoint, lever: float) -> ByCable:
     """∂θ/∂T of the root of g in rad/N, ahead."""
-    of_slip = slip_by_tensions(slip, point, lever)
-    return ByCable(-of_slip.behind / point.slope, -of_slip.ahead / point.slope)
+    (behind, ahead), slope = slip_by_tensions(slip, point, lever), point.slope
+    return -behind / slope, -ahead / slope
 
 
 def root_gradient(slip: Slip, point: SlipPoint, lever: float) -> TensionGradient | None:
     """∂θ/∂T of a root of g in rad/N; None where it is infinite."""
     if point.slope == 0.0:
         return None
-    return finite(of_sides(slip.side, angle_by_tensions(slip, point, lever), slip.side))
+    return finite(of_sides(slip, angle_by_tensions(slip, point, lever), slip.side))
 
 
 def normal_by_tensions(
@@ -77,7 +79,7 @@ def normal_by_tensions(
     lever: float,
     *,
     angle: ByCable,
-    at_limit: Any,
+    at_limit: bool,
 ) -> ByCable:
     """∂N/∂T.
 
@@ -90,27 +92,25 @@ def normal_by_tensions(
     at_limit : bool
         Whether friction is at its limit; otherwise it takes up the moment.
     """
-    share = slip.load.share
-    found = []
-    for sign, by_angle in ((-1.0, angle.behind), (1.0, angle.ahead)):
-        turned = slip.total * by_angle
-        limit = point.by_tilt * turned - share * point.by_share
-        held = sign * lever - point.moment
-        moment = at_limit * limit + (1 - at_limit) * held
-        found.append(
-            normal.normal
-            - share * normal.by_share
-            + normal.by_tilt * turned
-            + normal.by_moment * moment
-        )
-    return ByCable(*found)
+    share, total, by_tilt = slip.share, slip.total, point.by_tilt
+    share_part = share * point.by_share
+    n, n_by_share, n_by_tilt, n_by_moment = normal
+    common = n - share * n_by_share
+    behind, ahead = total * angle[0], total * angle[1]
+    if at_limit:
+        of_behind, of_ahead = by_tilt * behind - share_part, by_tilt * ahead - share_part
+    else:
+        of_behind, of_ahead = -lever - point.moment, lever - point.moment
+    return (
+        common + n_by_tilt * behind + n_by_moment * of_behind,
+        common + n_by_tilt * ahead + n_by_moment * of_ahead,
+    )
 
 
-def of_sides(side: Any, by_cable: ByCable, sign: Any = 1.0) -> TensionGradient:
+def of_sides(slip: Slip, by_cable: ByCable, sign: Any = 1.0) -> TensionGradient:
     """Derivatives by T_l and T_s; `sign` turns what is counted ahead into what is towards s."""
-    towards_s = side > 0.0
     behind, ahead = by_cable
+    towards_s, choose = slip.side > 0.0, slip.numbers.choose
     return TensionGradient(
-        sign * (towards_s * behind + (1 - towards_s) * ahead),
-        sign * (towards_s * ahead + (1 - towards_s) * behind),
+        sign * choose(towards_s, behind, ahead), sign * choose(towards_s, ahead, behind)
     )

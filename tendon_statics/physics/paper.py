@@ -100,7 +100,7 @@ def moment_pressure(
 def bisect(design: JointDesign, tension_l: float, tension_s: float) -> tuple[float, int] | None:
     """Solve the corrected Eq. (4) as the paper does, by plain bisection from 0 to the stop.
 
-    `solve` answers the same from the same equation, in a few Newton steps.
+    `solve` answers the same from the same equation, in a few steps.
 
     Returns
     -------

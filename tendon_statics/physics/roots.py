@@ -7,7 +7,8 @@ other is halved.
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+import math
+from typing import Any, Protocol
 
 ANGLE_TOLERANCE = 1e-10
 """Width in rad of the bracket at which the search for a root ends; the paper's"""
@@ -16,103 +17,136 @@ FLAT_WIDTH = 1e-8
 """Width of an interval in which the rounding of the function hides its slope, if it got this
 narrow"""
 
-MOST_CUTS = 2000
-"""Intervals that are halved before the rest is taken as too flat to resolve; a few suffice for any
-function but one made up to be flat"""
+MOST_INTERVALS = 4000
+"""Intervals that are looked at before the rest is taken as too flat to resolve; a few suffice for
+any function but one made up to be flat"""
 
-MOST_NEWTON_STEPS = 12
-"""Steps after which a bracket is halved only; Newton's method takes five or so"""
+USUAL_STEPS = 4
+"""Steps after which every other one halves the bracket; four or five are enough as a rule"""
+
+MOST_HELPED_STEPS = 20
+"""Steps after which each halves the bracket"""
+
+OVERSHOOT = 0.45 * ANGLE_TOLERANCE
+"""How far beyond the root the last step is aimed, so that rounding does not put it before"""
+
+LEAST = 5e-324
+"""Added to what may be zero, so that what is divided by it is infinite: no other number changes"""
+
+SAME = 1e-15
+"""Distance in rad within which a place is the root"""
+
+
+Probe = tuple[Any, ...]
+"""A function at one place: place, value, slope, and what else it wants to know of it again"""
 
 
 class BoundedFunction(Protocol):
     """A function of one variable."""
 
-    def value(self, place: float) -> float:
+    def probe(self, place: float) -> Probe:
         """Return the function at a place."""
 
-    def value_and_slope(self, place: float) -> tuple[float, float]:
-        """Return the function and its slope."""
-
-    def slope_bounds(self, low: float, high: float) -> tuple[float, float]:
-        """Return bounds of the slope over an interval; NaN or infinite where there are none."""
+    def slope_bounds(self, one: Probe, other: Probe) -> tuple[float, float]:
+        """Return bounds of the slope between two probes; NaN or infinite where there are none."""
 
 
-class Bracket(NamedTuple):
-    """An interval with one root, over which the function changes sign, and its values there."""
-
-    low: float
-    at_low: float
-    high: float
-    at_high: float
+Bracket = tuple[Probe, Probe]
+"""Two probes with one root between them, over which the function changes sign"""
 
 
-def brackets(function: BoundedFunction, low: float, high: float) -> list[Bracket]:
-    """Return ascending, disjoint brackets that hold one root each and all together.
+def brackets(function: BoundedFunction, low: Probe, high: Probe) -> list[Bracket]:
+    """Return ascending, disjoint brackets that hold one root each, and all roots together.
 
     A root at `low` itself comes as a bracket of no width. Where two roots merge, within about
     1e-7 rad, rounding decides whether they are seen as two or as none.
     """
-    at_low, at_high = function.value(low), function.value(high)
-    found = [Bracket(low, at_low, low, at_low)] if at_low == 0.0 else []
-    pending = [Bracket(low, at_low, high, at_high)]
+    found = [(low, low)] if low[1] == 0.0 else []
+    pending = [(low, high)]
     unresolved: list[Bracket] = []
-    cuts = 0
-    # Level by level, so that at the limit what is left is of one width.
-    while pending:
-        level, pending = pending, []
-        for interval in level:
-            least, greatest = function.slope_bounds(interval.low, interval.high)
-            if least > 0.0 or greatest < 0.0:
-                if _changes_sign(interval.at_low, interval.at_high):
-                    found.append(interval)
-            elif _may_vanish(interval, least, greatest):
-                left, at_left, right, at_right = interval
-                if right - left < FLAT_WIDTH or cuts >= MOST_CUTS:
-                    unresolved.append(interval)
-                else:
-                    middle = 0.5 * (left + right)
-                    at_middle = function.value(middle)
-                    pending.append(Bracket(left, at_left, middle, at_middle))
-                    pending.append(Bracket(middle, at_middle, right, at_right))
-                    cuts += 1
+    # It grows while it is gone through, level by level, so that at the limit what is left is of
+    # one width.
+    for interval in pending:
+        left, right = interval
+        least, greatest = function.slope_bounds(left, right)
+        if least > 0.0 or greatest < 0.0:
+            if _changes_sign(left[1], right[1]):
+                found.append(interval)
+        elif _may_vanish(left, right, least, greatest):
+            if right[0] - left[0] < FLAT_WIDTH or len(pending) > MOST_INTERVALS:
+                unresolved.append(interval)
+            else:
+                middle = function.probe(0.5 * (left[0] + right[0]))
+                pending += (left, middle), (middle, right)
     if unresolved:
         for cluster in _clusters(unresolved):
             found += _brackets_in(cluster)
-    found.sort()
+    if len(found) > 1:
+        found.sort(key=_place)
     return found
 
 
-def refine(function: BoundedFunction, bracket: Bracket) -> tuple[float, int]:
+def refine(function: BoundedFunction, bracket: Bracket) -> tuple[Probe, int]:
     """Narrow a bracket to `ANGLE_TOLERANCE`; return the root and the steps taken.
 
-    Newton steps, and halvings where they lead out of the bracket or take too long. Each is aimed a
-    little beyond the root, so that the bracket closes from both ends. The root is where the chord
-    over the last bracket is zero, which makes it as exact as the function.
+    Steps go to where the cubic through both ends, with their slopes, is zero; where that does not
+    help the bracket is halved. The last step is aimed a little beyond the root, so that the
+    bracket closes from both ends. The root is where the chord over the last bracket is zero, which
+    makes it as exact as the function; it mostly is the last place but one.
     """
-    low, at_low, high, at_high = bracket
-    rising = at_low < 0.0 if at_low else at_high > 0.0
-    overshoot = 0.45 * ANGLE_TOLERANCE
+    low, high = bracket
+    rising = low[1] < 0.0 if low[1] else high[1] > 0.0
     steps = 0
-    ahead = _chord_zero(low, at_low, high, at_high)
-    while high - low > ANGLE_TOLERANCE:
-        place = ahead if low < ahead < high else 0.5 * (low + high)
-        value, slope = function.value_and_slope(place)
+    ahead = cubic_zero(low, high)
+    while high[0] - low[0] > ANGLE_TOLERANCE:
+        if not low[0] < ahead < high[0]:
+            ahead = 0.5 * (low[0] + high[0])
+        probe = function.probe(ahead)
+        value, slope = probe[1], probe[2]
         steps += 1
         if (value < 0.0) is rising:
-            low, at_low, beyond = place, value, overshoot
+            low, beyond = probe, OVERSHOOT
         else:
-            high, at_high, beyond = place, value, -overshoot
-        helpful = slope != 0.0 and steps < MOST_NEWTON_STEPS
-        ahead = place - value / slope + beyond if helpful else low
-    root = _chord_zero(low, at_low, high, at_high)
-    return min(max(root, low), high), steps
+            high, beyond = probe, -OVERSHOOT
+        if steps >= MOST_HELPED_STEPS:
+            ahead = math.nan
+        elif slope and -OVERSHOOT < (step := value / slope) < OVERSHOOT:
+            ahead += beyond - step
+        elif steps > USUAL_STEPS and steps % 2:
+            ahead = math.nan
+        else:
+            ahead = cubic_zero(low, high)
+    root = min(max(_chord_zero(low, high), low[0]), high[0])
+    for end in (low, high):
+        if abs(end[0] - root) <= SAME:
+            return end, steps
+    return function.probe(root), steps
 
 
-def _chord_zero(low: float, at_low: float, high: float, at_high: float) -> float:
+def cubic_zero(low: Any, high: Any) -> Any:
+    """Where the place, as a cubic in the value through two probes and their slopes, is at zero.
+
+    NaN, or any place, where the function is not monotonic between them; floats, or arrays.
+    """
+    place, value, slope = low[0], low[1], low[2]
+    other_place, other_value, other_slope = high[0], high[1], high[2]
+    rise, width = other_value - value, other_place - place
+    share = -value / (rise + LEAST)
+    start, end = rise / (slope + LEAST), rise / (other_slope + LEAST)
+    bend = start + end - 2.0 * width
+    return place + share * (start + share * (width - start - bend + share * bend))
+
+
+def _chord_zero(low: Probe, high: Probe) -> float:
     """Where the chord between two points is zero."""
-    if at_low == at_high:
-        return high
-    return high - at_high * (high - low) / (at_high - at_low)
+    if low[1] == high[1]:
+        return high[0]  # type: ignore[no-any-return]
+    return high[0] - high[1] * (high[0] - low[0]) / (high[1] - low[1])  # type: ignore[no-any-return]
+
+
+def _place(bracket: Bracket) -> tuple[float, float]:
+    low, high = bracket
+    return low[0], high[0]
 
 
 def _changes_sign(before: float, after: float) -> bool:
@@ -120,31 +154,30 @@ def _changes_sign(before: float, after: float) -> bool:
     return before < 0.0 <= after or before > 0.0 >= after
 
 
-def _may_vanish(interval: Bracket, least: float, greatest: float) -> bool:
+def _may_vanish(left: Probe, right: Probe, least: float, greatest: float) -> bool:
     """Whether a function with slopes within these bounds, of both signs, can have a zero."""
-    left, at_left, right, at_right = interval
-    if not (at_left > 0.0 < at_right or at_left < 0.0 > at_right):
-        return True
+    at_left, at_right, width = left[1], right[1], right[0] - left[0]
     if at_left < 0.0:
         at_left, at_right, least, greatest = -at_left, -at_right, -greatest, -least
+    if not at_left > 0.0 < at_right:
+        return True
     # It comes down no further than to where steepest descent and ascent meet.
-    lowest = at_left * greatest - at_right * least + least * greatest * (right - left)
+    lowest = at_left * greatest - at_right * least + least * greatest * width
     return not lowest > 0.0
 
 
-def _clusters(intervals: list[Bracket]) -> list[list[tuple[float, float]]]:
-    """Join intervals that lie close together; return the points of each run, ascending."""
-    clusters: list[list[tuple[float, float]]] = []
-    for left, at_left, right, at_right in sorted(intervals):
-        points = [(left, at_left), (right, at_right)]
-        if clusters and left - clusters[-1][-1][0] <= 10.0 * FLAT_WIDTH:
-            clusters[-1] += points
+def _clusters(intervals: list[Bracket]) -> list[list[Probe]]:
+    """Join intervals that lie close together; return the places of each run, ascending."""
+    clusters: list[list[Probe]] = []
+    for left, right in sorted(intervals, key=_place):
+        if clusters and left[0] - clusters[-1][-1][0] <= 10.0 * FLAT_WIDTH:
+            clusters[-1] += [left, right]
         else:
-            clusters.append(points)
+            clusters.append([left, right])
     return clusters
 
 
-def _brackets_in(cluster: list[tuple[float, float]]) -> list[Bracket]:
+def _brackets_in(cluster: list[Probe]) -> list[Bracket]:
     """Brackets where the function is too flat to tell roots apart, and its sign may be rounding.
 
     Opposite signs at the two ends are one root. With like signs there are two roots if it is of
@@ -152,8 +185,8 @@ def _brackets_in(cluster: list[tuple[float, float]]) -> list[Bracket]:
     """
     first, last = cluster[0], cluster[-1]
     if _changes_sign(first[1], last[1]):
-        return [Bracket(*first, *last)]
-    for point in cluster[1:-1]:
-        if _changes_sign(first[1], point[1]) and _changes_sign(point[1], last[1]):
-            return [Bracket(*first, *point), Bracket(*point, *last)]
+        return [(first, last)]
+    for probe in cluster[1:-1]:
+        if _changes_sign(first[1], probe[1]) and _changes_sign(probe[1], last[1]):
+            return [(first, probe), (probe, last)]
     return []

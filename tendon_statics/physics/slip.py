@@ -3,17 +3,24 @@
 It is written for slipping towards cable s. Slipping towards cable l is the mirror image (cables
 swapped, angle and what lies across the axis negated), which is made here and nowhere else: angles
 are counted *ahead*, positive to the side of slip.
+
+The moment M of all but friction about the centre of the ball is Eq. (3),
+
+    M(θ) = ΔT (r + δ) + Q_x cos θ − Q_z sin θ − k θ,
+
+with ΔT = T_s − T_l, the moment Q of the dead load (see `load`) and the stiffness k of a backbone.
+For an upright unit with nothing at its tip the middle is W l sin θ, the paper's. K is the contact
+law's.
 """
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
-from .contact.law import ContactLaw, LoadShare, Turn
+from .contact.law import ContactLaw, State
+from .contact.numbers import FLOATS, Numbers, wave_bounds
 from .design import JointDesign
-from .load import DeadLoad
-from .moment import Moment
+from .load import DeadLoad, Load
 from .roots import Bracket, brackets
 
 NEGLIGIBLE_LOAD = 1e-9
@@ -23,6 +30,11 @@ angle"""
 
 ROUNDING = 1e-12
 """Excess of a margin over 1 that may be rounding"""
+
+Probe = tuple[Any, ...]
+"""What the search for roots takes from one angle, as a plain tuple, since a search makes eight:
+θ ahead, g and ∂g/∂θ in units of r T, cos θ, sin θ, M / (r T), the wave in ∂M/∂θ and minus its
+slope, and the state of the contact law. `Slip.point` gives them names"""
 
 
 class SlipPoint(NamedTuple):
@@ -40,10 +52,12 @@ class SlipPoint(NamedTuple):
     """∂g/∂θ"""
     capacity: Any
     """K / (r T)"""
-    by_share: Any
-    """Its derivative by |P| / T"""
     by_tilt: Any
     """Its derivative by ψ, so by θ"""
+    by_share: Any
+    """Its derivative by |P| / T"""
+    state: State
+    """Of the contact law"""
 
     @property
     def excess(self) -> Any:
@@ -51,118 +65,208 @@ class SlipPoint(NamedTuple):
         return self.moment - self.capacity
 
 
+class LoadedJoint(NamedTuple):
+    """One joint under a dead load, before the cables pull; what a slip function takes from it."""
+
+    law: ContactLaw
+    size: Any
+    """|P| in N"""
+    tilt: tuple[Any, Any]
+    """cos ψ and sin ψ at zero bend"""
+    lever: float
+    """(r + δ) / r"""
+    moment_x: Any
+    """Q_x / r in N"""
+    moment_z: Any
+    """Q_z / r in N"""
+    stiffness: float
+    """k / r in N"""
+    turning: Any
+    """Size in N of all that turns with the unit"""
+
+    @classmethod
+    def of(cls, design: JointDesign, dead: DeadLoad) -> LoadedJoint:
+        """Return a joint under a dead load of floats, or of arrays."""
+        radius, friction = design.ball_radius, design.friction_coefficient
+        size = dead.size
+        nothing = size == 0.0  # has no direction; along the axis is as good as any
+        moment_x, moment_z = dead.moment_x / radius, dead.moment_z / radius
+        stiffness = design.stiffness / radius
+        return cls(
+            design.law,
+            size,
+            ((nothing - dead.force_z) / (size + nothing), dead.force_x / (size + nothing)),
+            design.relative_lever,
+            moment_x,
+            moment_z,
+            stiffness,
+            (abs(moment_x) + abs(moment_z) + stiffness) / friction + friction * size,
+        )
+
+
+def loaded_joint(design: JointDesign, load: Load) -> LoadedJoint:
+    """Return a joint under a load; the last of a design is kept, since loads seldom change.
+
+    That saves a twelfth of `solve`.
+    """
+    kept: tuple[Load, LoadedJoint] | None = design.__dict__.get('_loaded')
+    if kept is not None and kept[0] is load:
+        return kept[1]
+    joint = LoadedJoint.of(design, load.on(design))
+    design.__dict__['_loaded'] = load, joint
+    return joint
+
+
 class Slip:
     """The slip function of one unit and one pair of tensions, for slipping to one side.
 
-    Attributes
+    Floats, or arrays of one shape for many pairs.
+
+    Parameters
     ----------
+    joint : LoadedJoint
+    excess : float
+        T − |P| in N, above 0 as a rule.
+    tension_l, tension_s : float
+        In N.
     side : float
         1 for slipping towards cable s, −1 for cable l.
+    numbers : Numbers
+        Of floats, or of arrays.
+
+    Attributes
+    ----------
+    excess : float
+        T − |P| in N, as given.
     total : float
         T in N.
-    law : ContactLaw
-    load : LoadShare
-        Size of the dead load as a share of T.
-    tilt : tuple of float
-        cos ψ and sin ψ at zero bend.
-    moment : Moment
-        M / (r T).
+    share : float
+        w = |P| / T.
+    law : LoadedLaw
+        The contact law under this load.
     """
 
-    __slots__ = ('law', 'load', 'moment', 'side', 'tilt', 'total')
+    __slots__ = (
+        *('_cosine', '_of_angle', '_of_cosine', '_of_sine', '_offset', '_sine', '_tensions'),
+        *('excess', 'joint', 'law', 'numbers', 'share', 'side', 'tilt', 'total'),
+    )
 
     def __init__(
         self,
-        law: ContactLaw,
-        load: LoadShare,
-        tilt: tuple[Any, Any],
-        moment: Moment,
-        total: Any,
-        side: float = 1.0,
+        joint: LoadedJoint,
+        excess: Any,
+        tension_l: Any,
+        tension_s: Any,
+        side: Any = 1.0,
+        numbers: Numbers = FLOATS,
     ) -> None:
-        self.law = law
-        self.load = load
-        self.tilt = tilt
-        self.moment = moment
-        self.total = total
-        self.side = side
-
-    @classmethod
-    def towards_s(
-        cls, design: JointDesign, dead: DeadLoad, excess: Any, tension_l: Any, tension_s: Any
-    ) -> Slip:
-        """Return the slip function towards cable s.
-
-        Parameters
-        ----------
-        dead : DeadLoad
-            Of floats, or of arrays.
-        excess : float
-            T − |P| in N, above 0.
-        tension_l, tension_s : float
-            In N.
-        """
+        law, size, (cosine, sine), lever, moment_x, moment_z, stiffness, _ = joint
         total = tension_l + tension_s
-        size = dead.size
-        share, spare = size / total, excess / total
-        nothing = size == 0.0  # has no direction; along the axis is as good as any
-        tilt = (nothing - dead.force_z) / (size + nothing), dead.force_x / (size + nothing)
-        return cls(
-            design.law,
-            LoadShare(share, spare, spare * (1.0 + share)),
-            tilt,
-            Moment.of(design, dead, tension_s - tension_l, total),
-            total,
-        )
+        self.joint, self.side, self.numbers, self.total = joint, side, numbers, total
+        self.excess, self._tensions = excess, (tension_l, tension_s)
+        self._cosine, self._sine = numbers.cosine, numbers.sine
+        self.share = share = size / total
+        spare = excess / total
+        self.tilt = tilt = cosine, side * sine
+        self.law = law.under((share, spare, spare * (1.0 + share)), tilt, numbers)
+        # M / (r T) by parts
+        self._offset = side * (tension_s - tension_l) / total * lever
+        self._of_cosine = side * moment_x / total
+        self._of_sine = -moment_z / total
+        self._of_angle = -stiffness / total
 
-    def facing(self, side: Any) -> Slip:
-        """Return the slip function of the mirror image where `side` is −1, the same where it is 1.
+    def part(self, rows: Any) -> Slip:
+        """Return the slip functions of some of the pairs that there are in arrays."""
 
-        Parameters
-        ----------
-        side : float
-            Or an array of them, beside tensions in arrays.
-        """
-        cosine, sine = self.tilt
-        offset, of_cosine, of_sine, stiffness = self.moment
-        return Slip(
-            self.law,
-            self.load,
-            (cosine, side * sine),
-            Moment(side * offset, side * of_cosine, of_sine, stiffness),
-            self.total,
-            side * self.side,
-        )
+        def part(values: Any) -> Any:
+            return values[rows] if getattr(values, 'ndim', 0) else values
+
+        joint = self.joint
+        if getattr(joint.size, 'ndim', 0):
+            law, size, tilt, lever, moment_x, moment_z, stiffness, turning = joint
+            joint = LoadedJoint(
+                *(law, part(size), (part(tilt[0]), part(tilt[1])), lever),
+                *(part(moment_x), part(moment_z), stiffness, part(turning)),
+            )
+        left, right = map(part, self._tensions)
+        return Slip(joint, part(self.excess), left, right, part(self.side), self.numbers)
+
+    def facing(self, sign: Any) -> Slip:
+        """Return the slip function towards the other side where `sign` is −1, the same for 1."""
+        left, right = self._tensions
+        return Slip(self.joint, self.excess, left, right, sign * self.side, self.numbers)
 
     def mirrored(self) -> Slip:
         """Return the slip function towards the other side."""
         return self.facing(-1.0)
 
-    def driving(self, bend_angle: float) -> Slip:
-        """Return the slip function towards the side to which the moment drives at an angle.
+    def probe(self, angle: Any) -> Probe:
+        """Look at an angle ahead in rad."""
+        cosine, sine = self._cosine(angle), self._sine(angle)
+        state = self.law.at(cosine, sine)
+        of_cosine, of_sine, of_angle = self._of_cosine, self._of_sine, self._of_angle
+        wave, wave_slope = of_sine * cosine - of_cosine * sine, of_cosine * cosine + of_sine * sine
+        moment = self._offset + wave_slope + of_angle * angle
+        slope = wave + of_angle - state[1]
+        return angle, moment - state[0], slope, cosine, sine, moment, wave, wave_slope, state
 
-        Parameters
-        ----------
-        bend_angle : float
-            θ in rad; this has to be the slip function towards cable s.
+    def slope_bounds(self, one: Probe, other: Probe) -> tuple[Any, Any]:
+        """Return bounds of ∂g/∂θ in units of r T between two angles, at most half a turn apart."""
+        angle, _, _, _, _, _, wave, wave_slope, state = one
+        other_angle, _, _, _, _, _, other_wave, other_wave_slope, other_state = other
+        low, high = wave_bounds(
+            self.numbers,
+            wave,
+            -wave_slope,
+            other_wave,
+            -other_wave_slope,
+            abs(self._of_cosine) + abs(self._of_sine),
+        )
+        least, greatest = self.law.slope_bounds(state, other_state, other_angle - angle)
+        of_angle = self._of_angle
+        return low + of_angle - greatest, high + of_angle - least
+
+    def brackets(self, one: Probe, other: Probe) -> list[Bracket]:
+        """Bracket all roots of g between two angles ahead; see `roots.brackets`.
+
+        There are none where nothing that turns with the unit counts beside the tensions: the
+        angle is then not determined by them.
         """
-        moment = self.moment.at(bend_angle, math.cos(bend_angle), math.sin(bend_angle))
-        return self.mirrored() if moment < 0.0 else self
+        found = brackets(self, one, other)
+        return found if found and self.is_determined else []
 
-    def tilted(self, cosine: Any, sine: Any) -> tuple[Any, Any]:
-        """Cos ψ and sin ψ at the angle ahead that has this cosine and sine."""
+    @property
+    def is_determined(self) -> Any:
+        """Whether anything that turns with the unit counts beside the tensions."""
+        return self.joint.turning >= NEGLIGIBLE_LOAD * self.total
+
+    def point(self, probe: Probe) -> SlipPoint:
+        """Return all that is known where it was probed."""
+        _, _, slope, cosine, sine, moment, _, _, state = probe
         of_cosine, of_sine = self.tilt
-        return of_cosine * cosine - of_sine * sine, of_sine * cosine + of_cosine * sine
+        return SlipPoint(
+            (cosine, sine),
+            of_cosine * cosine - of_sine * sine,
+            of_sine * cosine + of_cosine * sine,
+            moment,
+            slope,
+            state[0],
+            state[1],
+            self.law.by_share(state),
+            state,
+        )
 
-    def value(self, angle: float) -> float:
-        """Return g / (r T) at an angle ahead in rad."""
-        value: float = self.value_turn(angle, math.cos(angle), math.sin(angle))
-        return value
+    def at(self, angle: Any) -> SlipPoint:
+        """Return all that is known at an angle ahead in rad."""
+        return self.point(self.probe(angle))
 
-    def value_turn(self, angle: Any, cosine: Any, sine: Any) -> Any:
-        """Return the same from the cosine and sine of the angle, which may be arrays."""
-        moment = self.moment.at(angle, cosine, sine)
-        return moment - self.law.capacity(self.load, *self.tilted(cosine, sine))
+    def value(self, angle: Any) -> Any:
+        """Return g in units of r T at an angle ahead in rad."""
+        return self.probe(angle)[1]
+
+    def moment_at(self, angle: Any) -> Any:
+        """Return M in units of r T, ahead, at an angle ahead in rad."""
+        return self.probe(angle)[5]
 
     def margin(self, angle: float) -> float:
         """M / K at an angle ahead in rad, with the capacity on the side of M.
@@ -170,66 +274,28 @@ class Slip:
         Above 1 the unit slips ahead, below −1 it slips back. A root is exact to the rounding of
         the margin, so what exceeds 1 by that alone is taken for 1.
         """
-        cosine, sine = math.cos(angle), math.sin(angle)
-        moment = self.moment.at(angle, cosine, sine)
-        of_tilt, across = self.tilted(cosine, sine)
-        across = -across if moment < 0.0 else across  # as the mirror image has it
-        margin = moment / self.law.capacity(self.load, of_tilt, across)
-        if 1.0 < abs(margin) <= 1.0 + ROUNDING:
-            return math.copysign(1.0, margin)
-        return margin  # type: ignore[no-any-return]
+        slip, probe = self.driving(angle)
+        margin: float = self.side * slip.margin_at(probe)
+        return margin
 
-    def value_and_slope(self, angle: float) -> tuple[float, float]:
-        """Return g and ∂g/∂θ in units of r T."""
-        cosine, sine = math.cos(angle), math.sin(angle)
-        capacity, _, by_tilt = self.law.slopes(self.load, *self.tilted(cosine, sine))
-        return (
-            self.moment.at(angle, cosine, sine) - capacity,
-            self.moment.slope(cosine, sine) - by_tilt,
-        )
+    def driving(self, angle: float) -> tuple[Slip, Probe]:
+        """Return the slip function towards the side to which M drives at an angle ahead in rad.
 
-    def slope_bounds(self, low: float, high: float) -> tuple[float, float]:
-        """Return bounds of ∂g/∂θ in units of r T over an interval in rad."""
-        middle, turn = 0.5 * (low + high), Turn.by(0.5 * (high - low))
-        return self.slope_bounds_turn(math.cos(middle), math.sin(middle), turn)
-
-    def slope_bounds_turn(self, cosine: Any, sine: Any, turn: Turn) -> tuple[Any, Any]:
-        """Return the same for all angles within a turn of the one with this cosine and sine."""
-        of_moment = turn.bounds(*self.moment.turn(cosine, sine))
-        of_capacity = self.law.slope_bounds(self.load, *self.tilted(cosine, sine), turn)
-        centre = of_moment.centre - self.moment.stiffness - of_capacity.centre
-        radius = of_moment.radius + of_capacity.radius
-        return centre - radius, centre + radius
-
-    def at(self, angle: float) -> SlipPoint:
-        """Return all that is known at an angle ahead in rad."""
-        return self.at_turn(angle, math.cos(angle), math.sin(angle))
-
-    def at_turn(self, angle: Any, cosine: Any, sine: Any) -> SlipPoint:
-        """Return the same from the cosine and sine of the angle, which may be arrays."""
-        tilted = self.tilted(cosine, sine)
-        capacity, by_share, by_tilt = self.law.slopes(self.load, *tilted)
-        return SlipPoint(
-            (cosine, sine),
-            *tilted,
-            self.moment.at(angle, cosine, sine),
-            self.moment.slope(cosine, sine) - by_tilt,
-            capacity,
-            by_share,
-            by_tilt,
-        )
-
-    def brackets(self, low: float, high: float) -> list[Bracket]:
-        """Bracket all roots of g between two angles ahead in rad; see `roots.brackets`.
-
-        There are none where nothing that turns with the unit counts beside the tensions: the
-        angle is then not determined by them.
+        And its probe there.
         """
-        return brackets(self, low, high) if self.is_determined else []
+        probe = self.probe(angle)
+        if not probe[5] < 0.0:
+            return self, probe
+        mirrored = self.mirrored()
+        return mirrored, mirrored.probe(-angle)
 
-    @property
-    def is_determined(self) -> Any:
-        """Whether anything that turns with the unit counts beside the tensions."""
-        moment, friction = self.moment, self.law.friction
-        turning = abs(moment.cosine) + abs(moment.sine) + moment.stiffness
-        return turning / friction + friction * self.load.share >= NEGLIGIBLE_LOAD
+    def margin_at(self, probe: Probe) -> float:
+        """M / K where it was probed, for M towards the side of slip; positive towards cable s."""
+        share = probe[5] / probe[8][0]
+        margin: float = self.side * (1.0 if 1.0 < share <= 1.0 + ROUNDING else share)
+        return margin
+
+    def residual_at(self, probe: Probe) -> float:
+        """(M − K) / (μ r) in N where it was probed; with the paper's law N_m − N_f, Eq. (4)."""
+        residual: float = probe[1] * self.total / self.joint.law.friction
+        return residual

@@ -34,28 +34,25 @@ def solve(
     """
     tensions = check_tensions(tension_l, tension_s)
     tension_l, tension_s = tensions
-    fields = (design, load)
     if tension_l == 0.0 or tension_s == 0.0:
-        return Equilibrium(*fields, Regime.SLACK, tension_l, tension_s, None, 0, 0)
+        return Equilibrium(design, load, Regime.SLACK, tension_l, tension_s, None, 0, 0)
 
-    slip = taut_slip(design, tensions, load)
-    if tension_l > tension_s:
-        slip = slip.mirrored()
-    found = slip.brackets(0.0, design.max_bend_angle)
+    slip = taut_slip(design, tensions, load, -1.0 if tension_l > tension_s else 1.0)
+    first, last = slip.probe(0.0), slip.probe(design.max_bend_angle)
+    found = slip.brackets(first, last)
     if found:
-        ahead, iterations = refine(slip, found[0])
+        probe, iterations = refine(slip, found[0])
         regime = Regime.EQUILIBRIUM
-    elif slip.value(0.0) > 0.0:
-        ahead, iterations = design.max_bend_angle, 0
+    elif first[1] > 0.0:
+        probe, iterations = last, 0
         regime = Regime.DRIVEN_TO_STOP
     else:
-        return Equilibrium(*fields, Regime.HELD, tension_l, tension_s, None, 0, 0)
+        return Equilibrium(design, load, Regime.HELD, tension_l, tension_s, None, 0, 0)
+    angle = slip.side * probe[0]
     return Equilibrium.of(
         slip,
-        *(*fields, regime, tension_l, tension_s),
-        slip.side * ahead,
-        len(found),
-        iterations,
+        probe,
+        (design, load, regime, tension_l, tension_s, angle, len(found), iterations, True, None),
     )
 
 
@@ -84,5 +81,4 @@ def residual(
         As `solve` does, and for a slack cable.
     """
     slip = taut_slip(design, check_tensions(tension_l, tension_s), load)
-    excess: float = slip.total * slip.value(bend_angle)
-    return excess / design.friction_coefficient
+    return slip.residual_at(slip.probe(bend_angle))

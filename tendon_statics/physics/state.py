@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from enum import Enum
-from functools import cached_property
 from typing import Any, NamedTuple
 
+from .admissible import Interval, angles_held
 from .design import JointDesign
-from .design_gradients import Derivatives, answer_derivatives
-from .forces import Contact, ContactForces, ForceRemainder, contact_at
+from .design_gradients import Derivatives, SlipAnswer, answer_derivatives
+from .forces import ContactForces, ForceRemainder, contact_forces
 from .gradients import (
-    ByCable,
     TensionGradient,
     angle_by_tensions,
     finite,
     normal_by_tensions,
     of_sides,
-    root_gradient,
     stddev_of,
 )
+from .kept import kept
 from .load import Load
-from .slip import Slip, SlipPoint
+from .slip import Probe, Slip
 from .tensions import Tensions, taut_slip
 
 
@@ -91,8 +90,20 @@ class Equilibrium(_Fields):
         """M / K at the angle: ±1 at the limit of friction, beyond that only against the stop."""
         if self.bend_angle is None:
             return None
-        slip = self._slip
-        return slip.side * slip.margin(slip.side * self.bend_angle)
+        slip, probe = self._slip_and_probe
+        return slip.margin_at(probe)
+
+    @property
+    def admissible_angles(self) -> list[Interval]:
+        """Where friction can hold the unit under these tensions, as `admissible_angles` has it.
+
+        From the slip function that is there already; none while a cable is slack.
+        """
+        if self.regime is Regime.SLACK:
+            return []
+        slip = self._taut_slip if self.bend_angle is None else self._slip_and_probe[0]
+        towards_s = slip if slip.side > 0.0 else slip.mirrored()
+        return angles_held(towards_s, self.design.max_bend_angle)
 
     @property
     def residual(self) -> float | None:
@@ -100,10 +111,10 @@ class Equilibrium(_Fields):
 
         With the paper's law N_m − N_f, Eq. (4).
         """
-        point = self._point
-        if point is None:
+        if self.bend_angle is None:
             return None
-        return point.excess * self._slip.total / self.design.friction_coefficient  # type: ignore[no-any-return]
+        slip, probe = self._slip_and_probe
+        return slip.residual_at(probe)
 
     @property
     def stable(self) -> bool | None:
@@ -111,17 +122,17 @@ class Equilibrium(_Fields):
 
         None where friction is not at its limit.
         """
-        if self.regime is Regime.DRIVEN_TO_STOP:
-            return True
-        if self.regime is not Regime.EQUILIBRIUM or self._point is None:
-            return None
-        return self._point.slope < 0.0  # type: ignore[no-any-return]
+        if self.regime is Regime.EQUILIBRIUM:
+            return self._slip_and_probe[1][2] < 0.0  # type: ignore[no-any-return]
+        return True if self.regime is Regime.DRIVEN_TO_STOP else None
 
     @property
     def normal_force(self) -> float | None:
         """N in N; None for a tracked unit where not `branch_consistent`."""
-        contact = self._contact
-        return contact.normal_force if contact and self._is_vouched_for else None
+        if not self._is_vouched_for:
+            return None
+        slip, probe = self._slip_and_probe
+        return slip.total * slip.law.normal(probe[8], self._friction)  # type: ignore[no-any-return]
 
     @property
     def pressure(self) -> float | None:
@@ -132,14 +143,12 @@ class Equilibrium(_Fields):
     @property
     def forces(self) -> ContactForces | None:
         """The forces on the joint surface."""
-        contact = self._contact
-        return contact.forces if contact and self._is_vouched_for else None
+        return self._details[1] if self._is_vouched_for else None
 
     @property
     def force_remainder(self) -> ForceRemainder | None:
         """What Eqs. (1) and (2) leave over, one by one."""
-        contact = self._contact
-        return contact.remainder if contact and self._is_vouched_for else None
+        return self._details[2] if self._is_vouched_for else None
 
     @property
     def branch_consistent(self) -> bool | None:
@@ -147,8 +156,10 @@ class Equilibrium(_Fields):
 
         With the paper's law they do while F sin φ > |P|, so that N < T.
         """
-        contact = self._contact
-        return None if contact is None else contact.consistent
+        if self.bend_angle is None:
+            return None
+        slip, probe = self._slip_and_probe
+        return slip.law.consistent(probe[8], self._friction)  # type: ignore[no-any-return]
 
     @property
     def bend_angle_gradient(self) -> TensionGradient | None:
@@ -158,29 +169,12 @@ class Equilibrium(_Fields):
         """
         if self.is_tracked:
             return self.slip_gradient if self.angle_assured else None
-        if self._point is None:
-            return None
-        if self.regime is Regime.DRIVEN_TO_STOP:
-            return TensionGradient(0.0, 0.0)
-        return root_gradient(self._slip, self._point, self.design.relative_lever)
+        return None if self.bend_angle is None else self._details[3]
 
     @property
     def pressure_gradient(self) -> TensionGradient | None:
         """∂p/∂T in Pa/N; None also where it is infinite."""
-        point, by_cable = self._point, self._angle_by_cable
-        if point is None or by_cable is None or not self._is_vouched_for:
-            return None
-        slip = self._slip
-        behind, ahead = normal_by_tensions(
-            slip,
-            point,
-            slip.law.normal_slopes(slip.load, point.cosine, point.sine, self._friction),
-            self.design.relative_lever,
-            angle=by_cable,
-            at_limit=self._is_at_limit,
-        )
-        area = self.design.contact_area
-        return finite(of_sides(slip.side, ByCable(behind / area, ahead / area)))
+        return self._details[4] if self._is_vouched_for else None
 
     @property
     def bend_angle_derivatives(self) -> Derivatives | None:
@@ -188,12 +182,14 @@ class Equilibrium(_Fields):
 
         Of `solve`; None also where they are infinite. At the stop only the stop moves the angle.
         """
-        return None if self._derivatives is None else self._derivatives[0]
+        found = self._derivatives()
+        return None if found is None else found[0]
 
     @property
     def pressure_derivatives(self) -> Derivatives | None:
         """∂p/∂x in Pa per SI unit, likewise."""
-        return None if self._derivatives is None else self._derivatives[1]
+        found = self._derivatives()
+        return None if found is None else found[1]
 
     def bend_angle_stddev(self, tension_stddev: float) -> float | None:
         """Return the standard deviation of the angle in rad, to first order, None if not known.
@@ -211,85 +207,131 @@ class Equilibrium(_Fields):
 
     def as_dict(self) -> dict[str, Any]:
         """Return all but design and load by name, ready for JSON: nested as dicts."""
-        return {name: _plain(getattr(self, name)) for name in _REPORTED}
+        # Its own fields are unpacked rather than asked for one by one: that saves a tenth.
+        design, _, regime, tension_l, tension_s, angle, root_count, iterations, assured, _ = self
+        normal_force = forces = remainder = pressure_by_tension = None
+        consistent = self.branch_consistent
+        if consistent or (angle is not None and not self.is_tracked):
+            normal_force, forces, remainder, _, pressure_by_tension = self._details
+        by_tension = self.bend_angle_gradient
+        return {
+            'regime': regime.value,
+            'tension_l': tension_l,
+            'tension_s': tension_s,
+            'bend_angle': angle,
+            'angle_assured': assured,
+            'slip_margin': self.slip_margin,
+            'pressure': normal_force and normal_force / design.contact_area,
+            'normal_force': normal_force,
+            'root_count': root_count,
+            'iterations': iterations,
+            'stable': self.stable,
+            'residual': self.residual,
+            'forces': forces and forces.as_dict(),
+            'force_remainder': remainder and remainder.as_dict(),
+            'branch_consistent': consistent,
+            'bend_angle_gradient': by_tension and by_tension.as_dict(),
+            'pressure_gradient': pressure_by_tension and pressure_by_tension.as_dict(),
+        }
 
     # What it is worked out from
 
     @classmethod
-    def of(cls, slip: Slip, *fields: Any, **more: Any) -> Equilibrium:
-        """Make one whose slip function, towards the side of its moment, is already there."""
-        made = cls(*fields, **more)
-        made.__dict__['_slip'] = slip
+    def of(cls, slip: Slip, probe: Probe, fields: tuple[Any, ...]) -> Equilibrium:
+        """Make one whose slip function is already there, probed at the angle.
+
+        Parameters
+        ----------
+        slip : Slip
+            Towards the side to which the moment drives the unit.
+        fields : tuple
+            All of them.
+        """
+        made = tuple.__new__(cls, fields)
+        made.__dict__['_slip_and_probe'] = slip, probe
         return made
 
-    @cached_property
-    def _slip(self) -> Slip:
-        """The slip function towards the side to which the moment drives the unit."""
-        tensions = Tensions(self.tension_l, self.tension_s)
-        slip = taut_slip(self.design, tensions, self.load)
-        return slip if self.bend_angle is None else slip.driving(self.bend_angle)
+    @kept
+    def _slip_and_probe(self) -> tuple[Slip, Probe]:
+        """The slip function towards the side to which the moment drives, probed at the angle."""
+        assert self.bend_angle is not None
+        return self._taut_slip.driving(self.bend_angle)
 
-    @cached_property
-    def _point(self) -> SlipPoint | None:
-        if self.bend_angle is None:
-            return None
-        slip = self._slip
-        return slip.at(slip.side * self.bend_angle)
-
-    @cached_property
-    def _contact(self) -> Contact | None:
-        if self._point is None:
-            return None
-        return contact_at(self._slip, self._point, self._friction)
+    @property
+    def _taut_slip(self) -> Slip:
+        return taut_slip(self.design, Tensions(self.tension_l, self.tension_s), self.load)
 
     @property
     def _is_at_limit(self) -> bool:
-        return self.regime in (Regime.EQUILIBRIUM, Regime.DRIVEN_TO_STOP)
+        return self.regime is Regime.EQUILIBRIUM or self.regime is Regime.DRIVEN_TO_STOP
 
     @property
     def _friction(self) -> float:
         """The moment that friction takes up, in units of r T."""
-        point = self._point
-        assert point is not None
-        return point.capacity if self._is_at_limit else point.moment  # type: ignore[no-any-return]
+        probe = self._slip_and_probe[1]
+        return probe[8][0] if self._is_at_limit else probe[5]  # type: ignore[no-any-return]
 
     @property
     def _is_vouched_for(self) -> bool:
-        """Whether the contact force is one that the model stands behind."""
+        """Whether there is a contact force that the model stands behind."""
+        if self.bend_angle is None:
+            return False
         return not self.is_tracked or bool(self.branch_consistent)
 
-    @cached_property
-    def _angle_by_cable(self) -> ByCable | None:
-        """∂θ/∂T by cable, ahead, of a root; zeros where the angle does not follow."""
-        point = self._point
-        if self.regime is not Regime.EQUILIBRIUM or point is None:
-            return ByCable(0.0, 0.0)
-        if point.slope == 0.0:
-            return None
-        return angle_by_tensions(self._slip, point, self.design.relative_lever)
+    @kept
+    def _details(
+        self,
+    ) -> tuple[
+        float, ContactForces, ForceRemainder, TensionGradient | None, TensionGradient | None
+    ]:
+        """N, forces, remainder, ∂θ/∂T and ∂p/∂T, None where infinite; a held unit does not move.
 
-    @cached_property
+        All at once, since they share most of the work: one by one they take half as long again.
+        """
+        slip, probe = self._slip_and_probe
+        design, regime, point = self.design, self.regime, slip.point(probe)
+        law, state, lever = slip.law, point.state, design.relative_lever
+        at_limit, friction = self._is_at_limit, self._friction
+        normal = law.normal_slopes(state, friction)
+        forces, remainder = contact_forces(slip, point, friction, normal[0])
+        angle, by_tension = (0.0, 0.0), STAYS
+        if regime is Regime.EQUILIBRIUM:
+            if point.slope == 0.0:
+                return slip.total * normal[0], forces, remainder, None, None
+            angle = angle_by_tensions(slip, point, lever)
+            by_tension = of_sides(slip, angle, slip.side)
+        behind, ahead = normal_by_tensions(
+            slip, point, normal, lever, angle=angle, at_limit=at_limit
+        )
+        area = design.contact_area
+        pressure_by_tension = of_sides(slip, (behind / area, ahead / area))
+        return (
+            slip.total * normal[0],
+            forces,
+            remainder,
+            finite(by_tension),
+            finite(pressure_by_tension),
+        )
+
     def _derivatives(self) -> tuple[Derivatives, Derivatives] | None:
         """By tilt and design. A tracked unit has been brought here by tensions of the past."""
-        if self.is_tracked or self._point is None:
+        if self.is_tracked or self.bend_angle is None:
             return None
+        rest = (self.regime, self.tension_l, self.tension_s)
+
+        def ask(design: JointDesign, load: Load, bend_angle: float) -> SlipAnswer:
+            there = Equilibrium(design, load, *rest, bend_angle, self.root_count)
+            assert there.residual is not None
+            assert there.pressure is not None
+            # Without μ: the moment that is missing, over r.
+            return SlipAnswer(there.residual * design.friction_coefficient, there.pressure)
+
         return answer_derivatives(
-            self.design,
-            self.load,
-            Tensions(self.tension_l, self.tension_s),
-            *(self._slip, self._point),
+            ask,
+            *(self.design, self.load, self.bend_angle, self.tension_l + self.tension_s),
             at_stop=self.regime is Regime.DRIVEN_TO_STOP,
         )
 
 
-_REPORTED = (
-    *('regime', 'tension_l', 'tension_s', 'bend_angle', 'angle_assured', 'slip_margin'),
-    *('pressure', 'normal_force', 'root_count', 'iterations', 'stable', 'residual', 'forces'),
-    *('force_remainder', 'branch_consistent', 'bend_angle_gradient', 'pressure_gradient'),
-)
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Enum):
-        return value.value
-    return value._asdict() if hasattr(value, '_asdict') else value
+STAYS = TensionGradient(0.0, 0.0)
+"""Of an angle that does not follow the tensions"""

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from .design import JointDesign
 from .errors import TensionError
 from .load import UPRIGHT, Load, tension_excess
-from .slip import Slip
+from .slip import Slip, loaded_joint
 
 NEGLIGIBLE_PULL = 1e-9
 """Share of the dead load below which cable tensions count for nothing"""
@@ -49,8 +49,8 @@ def check_tensions(tension_l: object, tension_s: object) -> Tensions:
     return Tensions(tension_l, tension_s)
 
 
-def taut_slip(design: JointDesign, tensions: Tensions, load: Load) -> Slip:
-    """Return the slip function towards cable s of two taut cables.
+def taut_slip(design: JointDesign, tensions: Tensions, load: Load, side: float = 1.0) -> Slip:
+    """Return the slip function of two taut cables towards cable s, or towards l for a side of −1.
 
     Raises
     ------
@@ -63,16 +63,21 @@ def taut_slip(design: JointDesign, tensions: Tensions, load: Load) -> Slip:
             f'tension_{tensions.slack_cable} is 0.0 N: the cable is slack, '
             'which is outside the model'
         )
-    dead = load.on(design)
-    size = dead.size
-    excess = tension_excess(design, load, size, tension_l, tension_s)
+    joint = loaded_joint(design, load)
+    excess = tension_excess(design, load, joint.size, tension_l, tension_s)
     if not excess > 0.0:
-        least = size
-        if design.law.carries_more_than_cables:
-            least = max(dead.largest_pull(design.max_bend_angle), NEGLIGIBLE_PULL * size)
-        if least == size or not tension_l + tension_s > least:
-            raise _unseated(tensions, load, least)
-    return Slip.towards_s(design, dead, excess, tension_l, tension_s)
+        _check_that_it_presses(design, tensions, load)
+    return Slip(joint, excess, tension_l, tension_s, side)
+
+
+def _check_that_it_presses(design: JointDesign, tensions: Tensions, load: Load) -> None:
+    """Refuse tensions that the dead load exceeds, unless it presses the unit on the ball."""
+    dead = load.on(design)
+    least = dead.size
+    if design.law.carries_more_than_cables:
+        least = max(dead.largest_pull(design.max_bend_angle), NEGLIGIBLE_PULL * least)
+    if least == dead.size or not sum(tensions) > least:
+        raise _unseated(tensions, load, least)
 
 
 def _unseated(tensions: Tensions, load: Load, least: float) -> TensionError:

@@ -11,7 +11,7 @@ from .design import JointDesign
 from .gradients import TensionGradient, root_gradient
 from .load import UPRIGHT, DeadLoad, Load
 from .roots import refine
-from .slip import Slip
+from .slip import LoadedJoint, Slip
 from .state import Equilibrium, Regime
 from .tensions import Tensions, check_tensions, taut_slip
 
@@ -100,21 +100,21 @@ class StickSlipTracker:
             As `solve` does; the unit then stays as it was.
         """
         tensions = check_tensions(tension_l, tension_s)
-        fields = (self._design, load)
+        tension_l, tension_s = tensions
         if tensions.slack_cable:
             self.doubt()
-            return Equilibrium(*fields, Regime.SLACK, *tensions, angle_assured=False)
+            return Equilibrium(self._design, load, Regime.SLACK, *tensions, angle_assured=False)
         slip = taut_slip(self._design, tensions, load)
-        margin = slip.margin(self._bend_angle)
+        driving, probe = slip.driving(self._bend_angle)
+        margin = driving.margin_at(probe)
         step = _Step(tensions, load, slip, margin)
-        regime = Regime.HELD if abs(margin) <= 1.0 else self._move(step)
+        regime = Regime.HELD
+        if not -1.0 <= margin <= 1.0:
+            regime = self._move(step)
+            driving, probe = slip.driving(self._bend_angle)
         self._before = step
-        return Equilibrium.of(
-            slip.driving(self._bend_angle),
-            *(*fields, regime, *tensions, self._bend_angle),
-            angle_assured=self._assured,
-            slip_gradient=self._gradient,
-        )
+        fields = (self._design, load, regime, tension_l, tension_s, self._bend_angle)
+        return Equilibrium.of(driving, probe, (*fields, None, None, self._assured, self._gradient))
 
     def _move(self, step: _Step) -> Regime:
         """Let the unit slip on the way from the last tensions to these; return how it ends."""
@@ -152,12 +152,12 @@ class StickSlipTracker:
         That is the first root from where it is: up to there it is driven on.
         """
         start, stop = slip.side * self._bend_angle, self._design.max_bend_angle
-        found = slip.brackets(start, stop) if start < stop else []
+        found = slip.brackets(slip.probe(start), slip.probe(stop)) if start < stop else []
         if not found:
             return self._come_to_stop(slip.side)
         landing, _ = refine(slip, found[0])
-        self._bend_angle = slip.side * landing
-        self._gradient = root_gradient(slip, slip.at(landing), self._design.relative_lever)
+        self._bend_angle = slip.side * landing[0]
+        self._gradient = root_gradient(slip, slip.point(landing), self._design.relative_lever)
         return Regime.SLIPPING
 
     def _way(self, step: _Step) -> list[Slip]:
@@ -177,7 +177,7 @@ class StickSlipTracker:
             share = index / STEPS
             dead = DeadLoad(*_on_the_way(old, new, share))
             pair = Tensions(*_on_the_way(before.tensions, step.tensions, share))
-            between.append(Slip.towards_s(design, dead, sum(pair) - dead.size, *pair))
+            between.append(Slip(LoadedJoint.of(design, dead), sum(pair) - dead.size, *pair))
         return [*between, step.slip]
 
     def _grows(self, before: _Step, step: _Step) -> bool:
@@ -193,7 +193,7 @@ class StickSlipTracker:
             ahead = slip if side > 0.0 else slip.mirrored()
             for index in range(-4, 5):
                 point = ahead.at(0.25 * index * self._design.max_bend_angle)
-                held = point.capacity - ahead.load.share * point.by_share
+                held = point.capacity - ahead.share * point.by_share
                 if not pull >= held * (change_l + change_s):
                     return False
         return True

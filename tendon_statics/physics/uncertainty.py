@@ -20,7 +20,7 @@ from functools import cached_property
 from statistics import NormalDist
 
 from .design import JointDesign
-from .design_gradients import slip_by_design
+from .design_gradients import excess_by_design
 from .design_uncertainty import DesignUncertainty
 from .gradients import slip_by_tensions
 from .load import UPRIGHT, Load
@@ -112,15 +112,15 @@ class SlipAngleDistribution:
         """1 where the slip function rises through the range, −1 where it falls, else 0."""
         if not self._slip.is_determined:
             return 1.0  # the same at all angles: held, or driven to the stop
-        least, greatest = self._slip.slope_bounds(0.0, self._stop)
+        slip = self._slip
+        least, greatest = slip.slope_bounds(slip.probe(0.0), slip.probe(self._stop))
         return 1.0 if least > 0.0 else -1.0 if greatest < 0.0 else 0.0
 
     @property
     def _is_side_sure(self) -> bool:
         """Whether noise neither turns the stronger cable into the weaker nor ends its tension."""
         weak, strong = sorted(self._tensions)
-        total = self._slip.total
-        spare = min(weak, total * self._slip.load.excess / math.sqrt(2.0))
+        spare = min(weak, self._slip.excess / math.sqrt(2.0))
         surest: float = min((strong - weak) / math.sqrt(2.0), spare)
         return surest > FAR * self._stddev
 
@@ -217,16 +217,23 @@ class SlipAngleDistribution:
         slip = self._slip
         point = slip.at(ahead)
         by_tensions = slip_by_tensions(slip, point, self._design.relative_lever)
-        variance = self._stddev**2 * (by_tensions.behind**2 + by_tensions.ahead**2)
+        variance = self._stddev**2 * (by_tensions[0] ** 2 + by_tensions[1] ** 2)
         if self._uncertainty is not None:
             names, covariance = self._uncertainty.parameters, self._uncertainty.covariance
-            slopes = slip_by_design(self._design, self._load, self._tensions, slip, ahead, names)
+            slopes = excess_by_design(
+                lambda other: self._excess_of(other, ahead), self._design, names, slip.total
+            )
             variance += sum(
                 a * b * covariance[i][j]
                 for i, a in enumerate(slopes)
                 for j, b in enumerate(slopes)
             )
         return self._direction * float(point.excess) / math.sqrt(variance)
+
+    def _excess_of(self, design: JointDesign, ahead: float) -> float:
+        """Return g in units of r T for another design, at an angle ahead in rad."""
+        slip = taut_slip(design, self._tensions, self._load).facing(self._slip.side)
+        return float(slip.value(ahead))
 
     @cached_property
     def _drawn(self) -> _Drawn:

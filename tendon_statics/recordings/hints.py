@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..estimation.settings import MANY_WEIGHTS
 from ..physics import JointDesign
 from .recording import Recording
 
@@ -13,9 +14,6 @@ and does not pass it, but for noise"""
 
 SLACK_OF_STOP = 0.05
 """Share of the stop by which noise or a rough drawing may put an angle beyond it"""
-
-MANY_WEIGHTS = 300.0
-"""Times the unit's weight that a cable of such a unit pulls at most, in the median"""
 
 SLOWEST, FASTEST = 2.5, 1e-5
 """s from one sample to the next, in the median"""

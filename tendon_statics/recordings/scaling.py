@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.calibration.load_cells import AS_MEASURED, LoadCells
-from ..tensions.cable_scale import CableScale, scaled_arrays
+from ..tensions.cable_scale import scaled_arrays
 from ..tensions.reason import Reason
 from .recording import Floats, Recording
 
@@ -26,7 +26,7 @@ def of_unit(recording: Recording, unit: Unit) -> Recording:
     scales = [unit.cable_l, unit.cable_s]
     applies = not (recording.in_newtons or all(scale.is_identity for scale in scales))
     if not applies:
-        scales = [CableScale(max_tension=scale.max_tension) for scale in scales]
+        scales = [scale._replace(gain=1.0, bias=0.0) for scale in scales]
     (tension_l, reasons_l), (tension_s, reasons_s) = (
         scaled_arrays(readings, scale)
         for readings, scale in zip((recording.tension_l, recording.tension_s), scales, strict=True)
@@ -60,13 +60,14 @@ def worse_reasons(
 
 
 def usable(recording: Recording) -> Recording:
-    """Return the recording with NaN for the tensions of every sample that has a fault."""
+    """Return the recording with NaN for the tensions of every sample that has a fault.
+
+    What a slack cable reads below 0 becomes 0.
+    """
     faulty = np.array([bool(fault) for fault in recording.known_faults])
-    if not faulty.any():
-        return recording
 
     def without(values: Floats) -> Floats:
-        return np.where(faulty, np.nan, values)
+        return np.where(faulty, np.nan, np.where(values < 0.0, 0.0, values))
 
     return dataclasses.replace(
         recording,

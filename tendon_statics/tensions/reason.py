@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from enum import Enum
 
+from ..physics.errors import TendonStaticsError
+
 
 class Reason(str, Enum):
     """Why a message was dropped."""
 
     WRONG_LENGTH = 'wrong length'
-    MISSING_CABLE = 'missing cable'
     NOT_FINITE = 'not finite'
     NEGATIVE = 'negative'
     IMPLAUSIBLE = 'implausible'
+    TOO_FAST = 'too fast'
+    SATURATED = 'saturated'
+    FROZEN = 'frozen'
     BELOW_WEIGHT = 'below the weight'
     OUT_OF_ORDER = 'out of order'
     REPEATED_STAMP = 'repeated stamp'
@@ -26,3 +30,11 @@ class Reason(str, Enum):
 
 Fault = tuple[Reason, str]
 """Why there is no pair of tensions, and the same in a sentence for people"""
+
+
+class ReadingError(TendonStaticsError, ValueError):
+    """A reading that is no pair of tensions of the unit; the text is for the user."""
+
+    def __init__(self, reason: Reason, text: str) -> None:
+        super().__init__(text)
+        self.reason = reason

@@ -42,6 +42,15 @@ class CableTare(NamedTuple):
         """Bias in N with which the mean is 0."""
         return self.old_bias - self.mean
 
+    def doubt(self, weight: float) -> str:
+        """Say that the cable may have been taut, if it read more than the unit's weight in N."""
+        if not abs(self.mean) > weight:
+            return ''
+        return (
+            f'{self.cable} read {self.mean:.4g} N, more than the weight of the unit: if it was '
+            'taut, this bias is wrong'
+        )
+
 
 def tare(
     tensions_l: Sequence[float],

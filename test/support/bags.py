@@ -75,13 +75,51 @@ def wrench(x: float, y: float, z: float, time: float) -> Any:
     )
 
 
+def quaternion(x: float, y: float, z: float, w: float) -> Any:
+    """A ``Quaternion``."""
+    return STORE.types['geometry_msgs/msg/Quaternion'](x=x, y=y, z=z, w=w)
+
+
+def pose(orientation: Any, time: float) -> Any:
+    """A ``PoseStamped`` at the origin."""
+    point = STORE.types['geometry_msgs/msg/Point'](x=0.0, y=0.0, z=0.0)
+    return STORE.types['geometry_msgs/msg/PoseStamped'](
+        header=header(time),
+        pose=STORE.types['geometry_msgs/msg/Pose'](position=point, orientation=orientation),
+    )
+
+
+def imu(time: float, orientation: Any = None, acceleration: Iterable[float] = (0, 0, 9.81)) -> Any:
+    """An ``Imu``; without an orientation, as REP 145 says it."""
+    vector = STORE.types['geometry_msgs/msg/Vector3']
+    x, y, z = (float(part) for part in acceleration)
+    unknown = np.zeros(9)
+    if orientation is None:
+        unknown[0] = -1.0
+    return STORE.types['sensor_msgs/msg/Imu'](
+        header=header(time),
+        orientation=orientation or quaternion(0.0, 0.0, 0.0, 0.0),
+        orientation_covariance=unknown,
+        angular_velocity=vector(x=0.0, y=0.0, z=0.0),
+        angular_velocity_covariance=np.zeros(9),
+        linear_acceleration=vector(x=x, y=y, z=z),
+        linear_acceleration_covariance=np.zeros(9),
+    )
+
+
 def estimate(tension_l: float, tension_s: float, time: float) -> Any:
     """An ``Estimate`` with nothing in it but the tensions."""
     _, fields = STORE.fielddefs[ESTIMATE]
     values: dict[str, Any] = {name: 0.0 for name, _ in fields}
-    values |= dict.fromkeys(('angle_assured', 'stable', 'branch_consistent'), False)
+    truths = ('angle_assured', 'load_assured', 'stable', 'branch_consistent')
+    values |= dict.fromkeys(truths, False)
     values |= dict.fromkeys(('root_count', 'iterations'), 0)
-    values |= {'header': header(time), 'regime': '', 'admissible_angles': np.array([])}
+    values |= {
+        'header': header(time),
+        'regime': '',
+        'contact_law': '',
+        'admissible_angles': np.array([]),
+    }
     values |= {'tension_l': tension_l, 'tension_s': tension_s}
     return STORE.types[ESTIMATE](**values)
 

@@ -204,6 +204,10 @@ class Listener(EstimatorClient):
         """Call ``~/reset``."""
         return self.call('reset', Trigger.Request())
 
+    def tare(self) -> Trigger.Response:
+        """Call ``~/tare``."""
+        return self.call('tare', Trigger.Request())
+
     def solve_latest(self) -> Trigger.Response:
         """Call ``~/solve_latest``."""
         return self.call('solve_latest', Trigger.Request())

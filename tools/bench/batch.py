@@ -15,11 +15,15 @@ from tendon_statics import (
     solve,
     solve_batch,
 )
+from tendon_statics.physics import UPRIGHT
 from tendon_statics.physics import batch as batch_module
-from tendon_statics.physics.array_roots import ArraySlipEquation
+from tendon_statics.physics.array_numbers import ARRAYS
 from tendon_statics.physics.batch import INVALID, REGIME_CODES
+from tendon_statics.physics.contact import CONTACT_LAWS
+from tendon_statics.physics.slip import LoadedJoint, Slip
 
 from .rows import Row, at_least, at_most
+from .solver import of_law
 from .stop_watches import StopWatches
 from .timing import best_times
 from .yardstick import Yardstick
@@ -45,12 +49,12 @@ def shares() -> dict[str, float]:
     design = load_design(default_design_path())
     tensions = mixed_pairs(design, PAIRS)
     parts = (
-        (ArraySlipEquation, 'brackets', 'counting and bracketing roots'),
-        (ArraySlipEquation, '_newton', "Newton's method on the quartic"),
-        (ArraySlipEquation, 'roots', 'proving the brackets'),
+        (batch_module, '_facing_slips', 'what is constant for each pair'),
+        (batch_module, 'array_brackets', 'counting and bracketing roots'),
+        (batch_module, 'array_refine', 'the roots'),
         (batch_module, '_solve_chunk', 'sorting pairs by regime, writing fields'),
         (batch_module, '_gradients_of', 'gradients'),
-        (batch_module, '_contact_of', 'forces and remainder'),
+        (batch_module, 'contact_forces', 'forces and remainder'),
     )
     with StopWatches(REST) as watches:
         for owner, name, part in parts:
@@ -72,14 +76,11 @@ def mixed_pairs(design: JointDesign, count: int) -> tuple[np.ndarray, np.ndarray
     tension_l, tension_s = draw.uniform(0.0, 3.0, (2, count))
     slipping = draw.random(count) < 1.0 / 3.0
     angle = draw.uniform(0.0, design.max_bend_angle, count)
-    total, weight = draw.uniform(1.0, 5.0, count), design.weight
-    # Eqs. (1) to (3) at that angle, solved for the tensions.
-    mu, r = design.friction_coefficient, design.ball_radius
-    b = total - mu * weight * np.sin(design.contact_centre_angle + angle)
-    square = total**2 - weight**2
-    normal = square / (b + np.sqrt(b**2 - (1.0 - mu**2) * square))
-    moment = mu * r * normal - weight * design.com_distance * np.sin(angle)
-    difference = moment / (r + design.cable_offset)
+    total = draw.uniform(1.0, 5.0, count)
+    # With equal tensions M is all but that of the cables, which make up for what K has beyond it.
+    joint, even = LoadedJoint.of(design, UPRIGHT.on(design)), 0.5 * total
+    slip = Slip(joint, total - joint.size, even, even, numbers=ARRAYS)
+    difference = -slip.value(angle) * total / design.relative_lever
     difference *= draw.choice([-1.0, 1.0], count)
     tension_l[slipping] = 0.5 * (total - difference)[slipping]
     tension_s[slipping] = 0.5 * (total + difference)[slipping]
@@ -107,6 +108,8 @@ def _speed(design: JointDesign) -> list[Row]:
     some_l, some_s = tension_l[:LOOPED], tension_s[:LOOPED]
     _check_against_loop(solve_batch(design, some_l, some_s))
     pairs = list(zip(some_l.tolist(), some_s.tolist(), strict=True))
+    others = [of_law(law, design) for law in CONTACT_LAWS][1:]
+    other_pairs = [mixed_pairs(other, PAIRS) for other in others]
     batch, c, c_of_quartic, loop = best_times(
         [
             lambda: all_fields(solve_batch(design, tension_l, tension_s)),
@@ -116,6 +119,13 @@ def _speed(design: JointDesign) -> list[Row]:
         ],
         rounds=ROUNDS,
     )
+    of_others = best_times(
+        [
+            lambda other=other, tensions=tensions: all_fields(solve_batch(other, *tensions))
+            for other, tensions in zip(others, other_pairs, strict=True)
+        ],
+        rounds=3,
+    )
     work, against = (
         '`solve_batch`, 10^6 mixed pairs, all fields',
         'bisection in C, -O3, one thread',
@@ -123,6 +133,10 @@ def _speed(design: JointDesign) -> list[Row]:
     return [
         at_most(work, against, batch / c, 1.0),
         Row(work, f'{against}, of the quartic', batch / c_of_quartic),
+        *(
+            Row(f'{work}, `{other.contact_law}`', f'{against}, of `merged`', time / c)
+            for other, time in zip(others, of_others, strict=True)
+        ),
         at_least(
             '`solve_batch`, the same',
             'a loop of `solve`, all fields',

@@ -17,11 +17,28 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from ros_programs import Program, wait_for
 from std_msgs.msg import Float64, Float64MultiArray
+from tendon_statics_interfaces.msg import Estimate
 
 from .pairs import noisy_pairs
 
-TOPICS = ('bend_angle', 'joint_pressure')
-"""On which answers come"""
+
+class Answer(NamedTuple):
+    """What a program answers each message with."""
+
+    topic: str
+    """In its private namespace"""
+    message_type: type
+    field: str
+    """The number in it that is checked"""
+
+
+ANSWERS = (
+    Answer('bend_angle', Float64, 'data'),
+    Answer('joint_pressure', Float64, 'data'),
+)
+"""What is listened to as a rule"""
+
+ESTIMATE = Answer('estimate', Estimate, 'bend_angle')
 
 LOAD = 4000
 """Messages at every rate that is tried: several times what the queue of a program holds"""
@@ -51,6 +68,18 @@ class Callee(NamedTuple):
     command: Sequence[str | Path]
     answer: Callable[[float, float], tuple[float, float]]
     """What it should say of T_l and T_s in N: bend angle in rad, pressure in Pa"""
+    estimates: bool = False
+    """Whether its estimates are listened to as well"""
+
+    @property
+    def answers(self) -> tuple[Answer, ...]:
+        """What is listened to."""
+        return (*ANSWERS, ESTIMATE) if self.estimates else ANSWERS
+
+    def expected(self, tension_l: float, tension_s: float) -> tuple[float, ...]:
+        """Return what each of the answers should say."""
+        angle, pressure = self.answer(tension_l, tension_s)
+        return (angle, pressure, angle) if self.estimates else (angle, pressure)
 
 
 @dataclass(frozen=True)
@@ -99,22 +128,24 @@ class Caller(Node):
         self._program = program
         self._executor = SingleThreadedExecutor(context=context)
         self._executor.add_node(self)
-        self._came: list[list[tuple[float, float]]] = [[] for _ in TOPICS]  # time, answer
+        self._came: list[list[tuple[float, float]]] = [[] for _ in callee.answers]  # time, answer
         self._tensions = self.create_publisher(
             Float64MultiArray,
             'tensions',
             QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT),
         )
-        for topic, came in zip(TOPICS, self._came, strict=True):
+        for (topic, message_type, field), came in zip(callee.answers, self._came, strict=True):
             self.create_subscription(
-                Float64,
+                message_type,
                 f'estimator/{topic}',
-                lambda message, came=came: came.append((time.perf_counter(), message.data)),
+                lambda message, came=came, field=field: came.append(
+                    (time.perf_counter(), getattr(message, field))
+                ),
                 2 * LOAD,
             )
         pairs = noisy_pairs(LOAD).tolist()
         self._messages = [Float64MultiArray(data=pair) for pair in pairs]
-        self._expected = np.array([callee.answer(*pair) for pair in pairs])
+        self._expected = np.array([callee.expected(*pair) for pair in pairs])
 
     def connect(self) -> None:
         """Wait until messages pass both ways, which is known of one end only."""
@@ -166,7 +197,7 @@ class Caller(Node):
     def _take_what_comes(self, count: int) -> None:
         """Take answers until all or none comes any more."""
         came, heard = 0, time.perf_counter()
-        while came < count * len(TOPICS) and time.perf_counter() < heard + PATIENCE:
+        while came < count * len(self._came) and time.perf_counter() < heard + PATIENCE:
             self._executor.spin_once(timeout_sec=PATIENCE)
             before, came = came, sum(map(len, self._came))
             if came > before:
@@ -214,7 +245,7 @@ class Caller(Node):
 
     def _try(self, rate: float) -> Trial:
         """Send `LOAD` messages at a rate, then take the answers, which wait in the middleware."""
-        expected = LOAD * len(TOPICS)
+        expected = LOAD * len(self._came)
         self._take_answers(expected + 1)  # Whatever came late of those before.
         begin = time.perf_counter()
         for index, message in enumerate(self._messages):
@@ -233,7 +264,7 @@ class Caller(Node):
             before = came
             for subscription in self.subscriptions:
                 with subscription.handle:
-                    while subscription.handle.take_message(Float64, False):
+                    while subscription.handle.take_message(subscription.msg_type, False):
                         came += 1
             if came > before:
                 heard = time.perf_counter()

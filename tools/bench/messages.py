@@ -6,7 +6,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from std_msgs.msg import Float64MultiArray, Header
 
 from tendon_statics import default_design_path, load_design, solve
-from tendon_statics.node.messages import (
+from tendon_statics.node.outputs.messages import (
     Estimate,
     fill_estimate,
     fill_intervals,

@@ -1,7 +1,8 @@
 """The estimator node beside a bare relay: there and back, CPU per message, highest rate.
 
-Estimators and relay are processes of their own that are there at the same time; one caller speaks
-to them in turn. It listens to bend angle and joint pressure, and nobody to anything else.
+Estimators and relays are processes of their own that are there at the same time; one caller
+speaks to them in turn. It listens to bend angle and joint pressure, of one estimator and one relay
+also to the estimate, and nobody to anything else.
 """
 
 from __future__ import annotations
@@ -52,22 +53,26 @@ def _answer(tension_l: float, tension_s: float) -> tuple[float, float]:
 
 
 ESTIMATOR = Path(get_package_prefix('tendon_statics'), 'lib', 'tendon_statics', 'estimator')
-RELAY = Callee(
-    'relay',
-    (sys.executable, Path(__file__).with_name('relay.py')),
-    lambda _tension_l, _tension_s: (paper.BEND_ANGLE, paper.PRESSURE),
-)
+RELAY = (sys.executable, Path(__file__).with_name('relay.py'))
+
+
+def _answer_of_relay(_tension_l: float, _tension_s: float) -> tuple[float, float]:
+    return paper.BEND_ANGLE, paper.PRESSURE
+
+
 CALLEES = (
-    RELAY,
+    Callee('relay', RELAY, _answer_of_relay),
     Callee('single', (ESTIMATOR,), _answer),
     Callee('events', (ESTIMATOR, '--ros-args', '-p', 'executor:=events'), _answer),
+    Callee('relay_of_estimates', (*RELAY, '--estimate'), _answer_of_relay, estimates=True),
+    Callee('estimates', (ESTIMATOR,), _answer, estimates=True),
 )
 TIMED = Callee('timed', (sys.executable, Path(__file__).with_name('timed_estimator.py')), _answer)
 
 
 def rows() -> list[Row]:
     """Measure."""
-    relay, single, events = _streams()
+    relay, single, events, relay_of_estimates, estimates = _streams()
     relay_rates, single_rates = _highest_rates(1.0 / median(stream.cpu for stream in relay))
     rate = _median_rate(single_rates) / _median_rate(relay_rates)
     work, against = 'estimator node, 500 Hz', 'bare rclpy relay'
@@ -98,6 +103,23 @@ def rows() -> list[Row]:
             '≥ 0.85 times',
             rate >= 0.85,
         ),
+        *_rows_of_estimates(estimates, relay_of_estimates),
+    ]
+
+
+def _rows_of_estimates(ours: Sequence[Stream], theirs: Sequence[Stream]) -> list[Row]:
+    """Return the rows of an estimator whose estimates are listened to."""
+    rounds = whole_rounds(ours, theirs)
+    work = 'estimator node, 500 Hz, `~/estimate` subscribed'
+    against = 'bare rclpy relay that publishes the same message'
+    return [
+        at_most(
+            f'{work}, there and back (p50); {said_of_losses(ours, theirs, rounds)}',
+            against,
+            median_ratio(rounds, 'there_and_back'),
+            1.15,
+        ),
+        at_most(f'{work}, CPU per message', against, median_ratio(rounds, 'cpu'), 1.3),
     ]
 
 

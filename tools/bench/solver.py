@@ -1,13 +1,16 @@
-"""One pair of tensions: `solve` beside a NumPy port, and beside C."""
+"""One pair of tensions: `solve` beside NumPy ports and C, and a tracked sample beside `solve`."""
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 
-from tendon_statics import default_design_path, load_design, solve
-from tendon_statics.physics import paper
-from tendon_statics.physics.roots import SlipEquation
-from tendon_statics.physics.solver import check_tensions
+from tendon_statics import JointDesign, default_design_path, load_design, solve
+from tendon_statics.physics import UPRIGHT, StickSlipTracker, paper, tensions_for
+from tendon_statics.physics.contact import CONTACT_LAWS
+from tendon_statics.physics.roots import refine
+from tendon_statics.physics.tensions import check_tensions, taut_slip
 
 from . import numpy_port
 from .pairs import noisy_pairs
@@ -15,81 +18,135 @@ from .rows import Row, at_least, at_most
 from .timing import best_times
 from .yardstick import Yardstick
 
+HELD = (1.0, 1.5)
+"""Tensions in N at which the preliminary design is held at every angle"""
+
+PORTS = {
+    'NumPy port with `scipy.optimize.bisect`': (numpy_port.solve, 15.0),
+    'the same, with scalars': (numpy_port.solve_lean, 15.0),
+    'the same, what does not depend on the angle worked out before': (
+        numpy_port.solve_leanest,
+        None,
+    ),
+}
+"""What `solve` stands beside → the function, and how many times faster it is to be"""
+
 
 def rows() -> list[Row]:
     """Measure."""
     design = load_design(default_design_path())
-    return [_all_fields(design), *_angle_and_pressure(design)]
+    return [*_all_fields(design), *_angle_and_pressure(design), _tracked(design)]
 
 
 def shares() -> dict[str, float]:
     """Measure what part of `solve(...).as_dict()` goes where, in order of the work."""
     design = load_design(default_design_path())
     case = (design, paper.TENSION_L, paper.TENSION_S)
-    equation = SlipEquation(*case)
-    search = (0.0, design.max_bend_angle)
-    (bracket,) = equation.brackets(*search)
-    checking, coefficients, counting, bisection, solving, everything = best_times(
-        [
-            lambda: [check_tensions(*case) for _ in range(20)],
-            lambda: [SlipEquation(*case) for _ in range(20)],
-            lambda: [equation.brackets(*search) for _ in range(20)],
-            lambda: [equation.bisect(*bracket) for _ in range(20)],
-            lambda: [solve(*case) for _ in range(20)],
-            lambda: [solve(*case).as_dict() for _ in range(20)],
-        ],
-        rounds=400,
-    )
-    parts = {
-        'checking the tensions': checking,
-        'coefficients of one pair': coefficients,
-        'showing that there is one root': counting,
-        'bisection': bisection,
-        'the rest of `solve`': solving - checking - coefficients - counting - bisection,
-        'fields on demand, and the dict': everything - solving,
+    tensions = check_tensions(*case[1:])
+    slip = taut_slip(design, tensions, UPRIGHT)
+    first, last = slip.probe(0.0), slip.probe(design.max_bend_angle)
+    (bracket,) = slip.brackets(first, last)
+    works = {
+        'checking the tensions': lambda: check_tensions(*tensions),
+        'what is constant for one pair': lambda: taut_slip(design, tensions, UPRIGHT),
+        'the ends of the range': lambda: (slip.probe(0.0), slip.probe(design.max_bend_angle)),
+        'showing that there is one root': lambda: slip.brackets(first, last),
+        'the root': lambda: refine(slip, bracket),
+        'solve': lambda: solve(*case),
+        'everything': lambda: solve(*case).as_dict(),
     }
-    return {part: seconds / everything for part, seconds in parts.items()}
+    times = best_times([_repeated(work) for work in works.values()], rounds=400)
+    *parts, solving, everything = times
+    took = dict(zip(works, parts, strict=False))
+    took['the rest of `solve`'] = solving - sum(parts)
+    took['fields on demand, and the dict'] = everything - solving
+    return {part: seconds / everything for part, seconds in took.items()}
 
 
-def _all_fields(design) -> Row:
-    case = (design, paper.TENSION_L, paper.TENSION_S)
-    answer, port = solve(*case), numpy_port.solve(*case)
-    if abs(answer.bend_angle - port[0]) > 1e-9 or abs(answer.pressure / port[1] - 1.0) > 1e-9:
-        raise RuntimeError(f'solve says {answer}, the NumPy port {port}')
-    ours, theirs = best_times(
+def of_law(law: str, design: JointDesign) -> JointDesign:
+    """Return the design with another contact law."""
+    return dataclasses.replace(design, contact_law=law)
+
+
+def published_pair(design: JointDesign) -> tuple[float, float]:
+    """Return the tensions in N of the published sum and angle; by the paper's law, those itself.
+
+    By any other law the published tensions hold the unit.
+    """
+    if design.contact_law == 'merged':
+        return paper.TENSION_L, paper.TENSION_S
+    total = paper.TENSION_L + paper.TENSION_S
+    return tensions_for(design, paper.BEND_ANGLE, total_tension=total)
+
+
+def _repeated(work):
+    return lambda: [work() for _ in range(20)]
+
+
+def _all_fields(design: JointDesign) -> list[Row]:
+    case = (design, *published_pair(design))
+    answer = solve(*case)
+    for port, _ in PORTS.values():
+        angle, pressure, pressed, rubbed = port(*case)
+        said = [answer.bend_angle, answer.pressure, *answer.forces]
+        if not np.allclose(said, [angle, pressure, *pressed, *rubbed], rtol=1e-8, atol=1e-9):
+            raise RuntimeError(f'solve says {answer}, the NumPy port {angle, pressure}')
+    designs = [of_law(law, design) for law in CONTACT_LAWS]
+    cases = [(of_law, *published_pair(of_law)) for of_law in designs]
+    times = best_times(
         [
-            lambda: [solve(*case).as_dict() for _ in range(20)],
-            lambda: [numpy_port.solve(*case) for _ in range(2)],
+            *(_repeated(lambda case=case: solve(*case).as_dict()) for case in cases),
+            *(lambda port=port: [port(*case) for _ in range(2)] for port, _ in PORTS.values()),
         ],
         rounds=400,
     )
-    return at_least(
-        'one `solve`, published case, all fields',
-        'NumPy port with `scipy.optimize.bisect`',
-        (theirs / 2) / (ours / 20),
-        15.0,
-    )
+    ours, ports = times[: len(cases)], times[len(cases) :]
+    work = 'one `solve`, published case, all fields'
+    found = [
+        _beside_port(work, against, (port / 2) / (ours[0] / 20), target)
+        for (against, (_, target)), port in zip(PORTS.items(), ports, strict=True)
+    ]
+    found += [
+        Row(f'{work}, `{law}` at the same angle', next(iter(PORTS)), (ports[0] / 2) / (time / 20))
+        for law, time in list(zip(CONTACT_LAWS, ours, strict=True))[1:]
+    ]
+    return found
 
 
-def _angle_and_pressure(design) -> list[Row]:
+def _beside_port(work: str, against: str, ratio: float, target: float | None) -> Row:
+    return Row(work, against, ratio) if target is None else at_least(work, against, ratio, target)
+
+
+def _angle_and_pressure(design: JointDesign) -> list[Row]:
     pairs = noisy_pairs(4000)
     # All alike: the processor learns the one way of the branches by heart, which helps C.
     same = np.tile([paper.TENSION_L, paper.TENSION_S], (4000, 1))
     equation, quartic = Yardstick(design), Yardstick(design, 'quartic')
     work, against = 'one `solve`, angle and pressure only', 'the same bisection in C, -O3'
-    return [
+    found = [
         at_most(work, against, _beside_c(design, equation, pairs), 12.0),
         Row(f'{work}, one pair over and over', against, _beside_c(design, equation, same)),
         Row(work, f'{against}, of the quartic', _beside_c(design, quartic, pairs)),
     ]
+    for law in list(CONTACT_LAWS)[1:]:
+        other = of_law(law, design)
+        # With less noise: these laws slip over a narrower range of tensions.
+        shifted = published_pair(other) + 0.1 * (pairs - published_pair(design))
+        ratio = _beside_c(design, equation, pairs, other, shifted)
+        found.append(Row(f'{work}, `{law}`', f'{against}, of `merged`', ratio))
+    return found
 
 
-def _beside_c(design, yardstick, pairs) -> float:
+def _beside_c(design, yardstick, pairs, other=None, other_pairs=None) -> float:
+    """Return our time over that of C; ours of another law and its pairs, if they are given."""
     works = []
-    for block in np.split(pairs, 50):
+    blocks = np.split(pairs, 50)
+    our_blocks = blocks if other is None else np.split(other_pairs, 50)
+    for block, our_block in zip(blocks, our_blocks, strict=True):
         tension_l, tension_s = (np.ascontiguousarray(column) for column in block.T)
-        python, c = _python_work(design, block.tolist()), _c_work(yardstick, tension_l, tension_s)
-        if not np.isclose(python(), c(), rtol=1e-9, atol=0.0):
+        python = _python_work(other or design, our_block.tolist())
+        c = _c_work(yardstick, tension_l, tension_s)
+        if other is None and not np.isclose(python(), c(), rtol=1e-9, atol=0.0):
             raise RuntimeError('solve and the bisection in C do not agree')
         works += [python, c]
     times = best_times(works, rounds=30)
@@ -109,3 +166,15 @@ def _python_work(design, pairs):
 
 def _c_work(yardstick, tension_l, tension_s):
     return lambda: yardstick.solve_each(tension_l, tension_s)
+
+
+def _tracked(design: JointDesign) -> Row:
+    tracker = StickSlipTracker(design, 0.1)
+    tracked, alone = best_times(
+        [
+            _repeated(lambda: tracker.update(*HELD)),
+            _repeated(lambda: solve(design, *HELD)),
+        ],
+        rounds=400,
+    )
+    return at_most('a tracked sample that is held', '`solve` of a held pair', tracked / alone, 1.5)

@@ -14,7 +14,11 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.publisher import Publisher
 from stop_watches import StopWatches
 
-from tendon_statics.node import estimator, outputs, program
+from tendon_statics.estimation.unit_estimator import UnitEstimator
+from tendon_statics.node import program
+from tendon_statics.node.estimator import Estimator
+from tendon_statics.node.inputs.sources import ArraySource
+from tendon_statics.node.outputs.publishers import Outputs
 
 
 def main() -> int:
@@ -22,10 +26,10 @@ def main() -> int:
     watches = StopWatches('wait and dispatch')
     for owner, name, part in (
         (SingleThreadedExecutor, '_take_subscription', 'decode'),
-        (estimator.ArraySource, '_take', 'decode'),
-        (estimator.Estimator, '_on_reading', 'check and count'),
-        (estimator.Estimator, '_result', 'solve'),
-        (outputs.Outputs, 'publish', 'build'),
+        (ArraySource, '_take', 'decode'),
+        (Estimator, '_on_reading', 'check and count'),
+        (UnitEstimator, '_result', 'solve'),
+        (Outputs, 'publish', 'build'),
         (Publisher, 'publish', 'publish'),
     ):
         watches.put_on(owner, name, part)

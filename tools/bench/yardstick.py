@@ -6,7 +6,6 @@ import ctypes
 import shutil
 import subprocess
 import tempfile
-from dataclasses import astuple
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +14,12 @@ from numpy.typing import NDArray
 from tendon_statics import JointDesign
 
 SOURCE = Path(__file__).with_name('bisection.c')
+
+TAKEN = (
+    *('ball_radius', 'cable_offset', 'com_distance', 'mass', 'friction_coefficient'),
+    *('contact_start_angle', 'contact_end_angle', 'max_bend_angle', 'gravity', 'contact_width'),
+)
+"""What it takes of a design, in its order: the paper's law, and no backbone"""
 
 Floats = NDArray[np.float64]
 
@@ -54,7 +59,9 @@ class Yardstick:
         self._library.design_size.restype = ctypes.c_size_t
         self._library.solve_each.restype = ctypes.c_double
         self._design = ctypes.create_string_buffer(self._library.design_size())
-        self._library.prepare(self._design, *map(ctypes.c_double, astuple(design)))
+        self._library.prepare(
+            self._design, *(ctypes.c_double(getattr(design, name)) for name in TAKEN)
+        )
 
     def solve_each(self, tension_l: Floats, tension_s: Floats) -> float:
         """Solve pair by pair for angle and pressure; return their sum."""

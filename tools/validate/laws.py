@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from tendon_statics.physics.contact import CONTACT_LAWS
-from tendon_statics.physics.contact.law import LoadShare
+from tendon_statics.physics.contact.numbers import FLOATS
 
 from .constructions import BALL_RADIUS, EQUATOR_SEAT, Construction, LooseBowl
 
@@ -35,6 +35,9 @@ def capacity(
     size = math.hypot(axial, transverse)
     tilt = math.atan2(transverse, axial)
     share = size / tension
-    load = LoadShare(share, 1.0 - share, 1.0 - share * share)
-    shares = CONTACT_LAWS[law](friction, *zone).capacity(load, math.cos(tilt), math.sin(tilt))
-    return BALL_RADIUS * tension * float(shares)
+    load = (share, 1.0 - share, 1.0 - share * share)
+    direction = (math.cos(tilt), math.sin(tilt))
+    capacity_share, *_ = (
+        CONTACT_LAWS[law](friction, *zone).under(load, direction, FLOATS).at(1.0, 0.0)
+    )
+    return BALL_RADIUS * tension * float(capacity_share)

@@ -19,12 +19,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..array_numbers import ARRAYS
 from ..array_roots import Floats
 from ..design import JointDesign
-from ..gradients import ByCable, normal_by_tensions, slip_by_tensions
+from ..gradients import normal_by_tensions, slip_by_tensions
 from ..load import UPRIGHT, Load
 from ..sample_loads import SampleLoads, seating_tension
-from ..slip import Slip
+from ..slip import LoadedJoint, Slip
 from .load_cells import AS_MEASURED, LoadCells
 
 
@@ -83,12 +84,13 @@ def boundary_distance(
         total = tension_l + tension_s
         dead = load.on(design)
         total = np.where(total > seating_tension(design, dead), total, np.nan)
-        slip = Slip.towards_s(design, dead, total - dead.size, tension_l, tension_s)
-        moment = slip.moment.at(bend_angle, np.cos(bend_angle), np.sin(bend_angle))
+        joint = LoadedJoint.of(design, dead)
+        slip = Slip(joint, total - dead.size, tension_l, tension_s, numbers=ARRAYS)
+        moment = slip.moment_at(bend_angle)
         slip = slip.facing(np.where(moment < 0.0, -1.0, 1.0))
-        ahead = slip.side * bend_angle
-        point = slip.at_turn(ahead, np.cos(ahead), np.sin(ahead))
-        slopes = slip.law.normal_slopes(slip.load, point.cosine, point.sine, point.capacity)
+        point = slip.at(slip.side * bend_angle)
+        slopes = slip.law.normal_slopes(point.state, point.capacity)
+        normal, _, normal_by_tilt, normal_by_moment = slopes
 
         scale = 1.0 / design.friction_coefficient
         excess = scale * total * point.excess
@@ -98,9 +100,10 @@ def boundary_distance(
         by_behind, by_ahead = by_behind + scale * point.excess, by_ahead + scale * point.excess
         by_angle = scale * total * point.slope
 
-        still = ByCable(0.0, 0.0)
-        force = normal_by_tensions(slip, point, slopes, lever, angle=still, at_limit=True)
-        force_by_angle = total * (slopes.by_tilt + slopes.by_moment * point.by_tilt)
+        force_by_behind, force_by_ahead = normal_by_tensions(
+            slip, point, slopes, lever, angle=(0.0, 0.0), at_limit=True
+        )
+        force_by_angle = total * (normal_by_tilt + normal_by_moment * point.by_tilt)
 
         towards_s = slip.side > 0.0
         of_behind = (noise.tension * np.where(towards_s, cells.gain_l, cells.gain_s)) ** 2
@@ -111,11 +114,11 @@ def boundary_distance(
 
         # q = p A − N: all its noise but that of p comes with the minus of N.
         area = design.contact_area
-        covariance = -of_behind * force.behind * by_behind - of_ahead * force.ahead * by_ahead
-        covariance -= of_angle * force_by_angle * by_angle
-        pressure_variance = of_behind * force.behind**2 + of_ahead * force.ahead**2
+        covariance = -of_behind * force_by_behind * by_behind
+        covariance -= of_ahead * force_by_ahead * by_ahead + of_angle * force_by_angle * by_angle
+        pressure_variance = of_behind * force_by_behind**2 + of_ahead * force_by_ahead**2
         pressure_variance += of_angle * force_by_angle**2 + (noise.pressure * area) ** 2
-        beyond = pressure * area - total * slopes.normal - covariance / variance * excess
+        beyond = pressure * area - total * normal - covariance / variance * excess
         pressure_variance -= covariance**2 / variance
         pressure_standardised = beyond / np.sqrt(pressure_variance)
     side: Any = slip.side

@@ -15,11 +15,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..array_numbers import ARRAYS
 from ..array_roots import Floats
 from ..errors import CalibrationError
 from ..load import Load
 from ..sample_loads import SampleLoads
-from ..slip import Slip
+from ..slip import LoadedJoint, Slip
 from .parameters import Model, ParameterSpace
 from .problem import Problem
 from .samples import SortedSamples
@@ -81,13 +82,13 @@ def predicted_slips(
     side = samples.distance(model, of).side
     dead = loads.on(design)
     with np.errstate(all='ignore'):
-        even = Slip.towards_s(design, dead, total - dead.size, 0.5 * total, 0.5 * total)
-        slip = even.facing(side)
-        ahead = side * angle
-        point = slip.at_turn(ahead, np.cos(ahead), np.sin(ahead))
+        joint = LoadedJoint.of(design, dead)
+        half = 0.5 * total
+        slip = Slip(joint, total - dead.size, half, half, side, ARRAYS)
+        point = slip.at(side * angle)
         # M is linear in the difference of the tensions, and K depends on their sum alone.
         difference = -side * point.excess * total / design.relative_lever
-        normal = slip.law.normal_slopes(slip.load, point.cosine, point.sine, point.capacity).normal
+        normal = slip.law.normal(point.state, point.capacity)
         pressure = total * normal / design.contact_area
     tension_l, tension_s = 0.5 * (total - difference), 0.5 * (total + difference)
     cells = model.cells

@@ -6,7 +6,8 @@ import math
 from typing import Any
 
 from .friction_circle import FrictionCircleLaw
-from .law import Bounds, CapacitySlopes, ContactLaw, ContactShares, LoadShare, NormalSlopes, Turn
+from .law import ContactLaw, ContactShares, LoadedLaw, LoadShare, NormalSlopes, State
+from .numbers import Numbers, wave_bounds
 from .zone import seat_constants
 
 
@@ -38,103 +39,122 @@ class ElasticSeatLaw(ContactLaw):
                 'contact zone up to 90 deg (1.5708 rad)'
             )
         zone = seat_constants(start_angle, end_angle)
-        self._zone = zone
-        self._coupling = zone.coupling
-        self._tilting = friction_coefficient * zone.axial_friction
-        self._gain = (
-            friction_coefficient * zone.lever / (1.0 + self._coupling * friction_coefficient**2)
-        )
-        self._circle = FrictionCircleLaw(friction_coefficient, start_angle, end_angle)
+        self.zone = zone
+        self.coupling = zone.coupling
+        self.tilting = friction_coefficient * zone.axial_friction
+        self.divisor = 1.0 + self.coupling * friction_coefficient**2
+        self.gain = friction_coefficient * zone.lever / self.divisor
+        self.circle = FrictionCircleLaw(friction_coefficient, start_angle, end_angle)
 
-    def _seat(self, load: LoadShare, cosine: Any, sine: Any) -> Any:
-        """κ of the seat alone."""
-        return self._gain * (1.0 + load.share * (cosine + self._tilting * sine))
-
-    def _seat_turns(self, load: LoadShare, cosine: Any, sine: Any) -> tuple[Any, Any]:
-        """First and second derivative of that by ψ."""
-        scale = self._gain * load.share
-        return (
-            scale * (self._tilting * cosine - sine),
-            -scale * (cosine + self._tilting * sine),
-        )
-
-    def capacity(self, load: LoadShare, cosine: Any, sine: Any) -> Any:
-        seat, circle = (
-            self._seat(load, cosine, sine),
-            self._circle.capacity(load, cosine, sine),
-        )
-        return _chosen(seat >= circle, seat, circle)
-
-    def slopes(self, load: LoadShare, cosine: Any, sine: Any) -> CapacitySlopes:
-        seat, circle = self._seat(load, cosine, sine), self._circle.slopes(load, cosine, sine)
-        holds = seat >= circle.capacity
-        by_share = self._gain * (cosine + self._tilting * sine)
-        by_tilt, _ = self._seat_turns(load, cosine, sine)
-        return CapacitySlopes(
-            _chosen(holds, seat, circle.capacity),
-            _chosen(holds, by_share, circle.by_share),
-            _chosen(holds, by_tilt, circle.by_tilt),
-        )
-
-    def slope_bounds(self, load: LoadShare, cosine: Any, sine: Any, turn: Turn) -> Bounds:
-        seat = turn.bounds(*self._seat_turns(load, cosine, sine))
-        circle = self._circle.slope_bounds(load, cosine, sine, turn)
-        # By how much the seat holds more in the middle, and how far that can change to an end.
-        lead = self._seat(load, cosine, sine) - self._circle.capacity(load, cosine, sine)
-        apart = abs(seat.centre - circle.centre)
-        drift = (apart + seat.radius + circle.radius) * turn.half_width
-        one = _chosen(lead > 0.0, seat.centre, circle.centre)
-        its = _chosen(lead > 0.0, seat.radius, circle.radius)
-        both = 0.5 * (seat.centre + circle.centre)
-        hull = 0.5 * (apart + seat.radius + circle.radius + abs(seat.radius - circle.radius))
-        alone = abs(lead) > drift
-        return Bounds(_chosen(alone, one, both), _chosen(alone, its, hull))
-
-    def _normal(self, load: LoadShare, cosine: Any, sine: Any, used: Any) -> Any:
-        """N_a / T, with `used` for μ': μ times the share of the capacity that f takes up."""
-        pushed = 1.0 + load.share * (cosine + used * self._zone.axial_friction * sine)
-        return pushed / (1.0 + self._coupling * used * used)
-
-    def normal_slopes(self, load: LoadShare, cosine: Any, sine: Any, moment: Any) -> NormalSlopes:
-        capacity, capacity_by_share, capacity_by_tilt = self.slopes(load, cosine, sine)
-        used = self.friction * moment / capacity
-        normal = self._normal(load, cosine, sine, used)
-        divisor = 1.0 + self._coupling * used * used
-        tilting = used * self._zone.axial_friction
-        by_used = self._zone.axial_friction * load.share * sine
-        by_used = (by_used - 2.0 * self._coupling * used * normal) / divisor
-        return NormalSlopes(
-            normal,
-            (cosine + tilting * sine) / divisor - by_used * used * capacity_by_share / capacity,
-            load.share * (tilting * cosine - sine) / divisor
-            - by_used * used * capacity_by_tilt / capacity,
-            by_used * self.friction / capacity,
-        )
-
-    def contact(self, load: LoadShare, cosine: Any, sine: Any, moment: Any) -> ContactShares:
-        used = self.friction * moment / self.capacity(load, cosine, sine)
-        axial = self._normal(load, cosine, sine, used)
-        dragged = used * self._zone.transverse_friction * axial
-        transverse = dragged - load.share * sine
-        pressure = (axial, transverse)
-        return ContactShares(
-            axial,
-            pressure,
-            (used * self._zone.axial_friction * transverse, -dragged),
-            pressure,
-            axial > 0.0,
-        )
+    def under(self, load: LoadShare, tilt: tuple[Any, Any], numbers: Numbers) -> LoadedLaw:
+        return LoadedElasticSeatLaw(self, load, tilt, numbers)
 
     def total_tension(self, axial: float, ahead: float, normal: float) -> float:
-        divisor = 1.0 + self._coupling * self.friction**2
-        return normal * divisor - axial - self._tilting * ahead
+        return normal * self.divisor - axial - self.tilting * ahead
 
     def contact_area(self, ball_radius: float, contact_width: float) -> float:  # noqa: ARG002
         """The zone's, real: the pressure is in Pa whatever `contact_width` is."""
         area = math.cos(self.start_angle) - math.cos(self.end_angle)
-        return 2.0 * math.pi * ball_radius**2 * area / self._zone.mean_pressure
+        return 2.0 * math.pi * ball_radius**2 * area / self.zone.mean_pressure
 
 
-def _chosen(first: Any, one: Any, other: Any) -> Any:
-    """One value where a condition holds, the other elsewhere."""
-    return first * one + (1 - first) * other
+class LoadedElasticSeatLaw(LoadedLaw):
+    """`ElasticSeatLaw` under a dead load.
+
+    Its state is κ, ∂κ/∂ψ, κ and ∂κ/∂ψ of the seat alone, and the state of the friction circle.
+    """
+
+    __slots__ = ('_circle', '_law', '_numbers', '_share')
+
+    def __init__(
+        self, law: ElasticSeatLaw, load: LoadShare, tilt: tuple[Any, Any], numbers: Numbers
+    ) -> None:
+        self._law, self._share, self._numbers = law, load[0], numbers
+        self._circle = law.circle.under(load, tilt, numbers)
+
+    def at(self, cosine: Any, sine: Any) -> State:
+        law, choose = self._law, self._numbers.choose
+        circle = self._circle.at(cosine, sine)
+        held, held_by_tilt, cos_psi, sin_psi, _ = circle
+        gain, tilting, share = law.gain, law.tilting, self._share
+        seat = gain * (1.0 + share * (cos_psi + tilting * sin_psi))
+        seat_by_tilt = gain * share * (tilting * cos_psi - sin_psi)
+        leads = seat >= held
+        return (
+            choose(leads, seat, held),
+            choose(leads, seat_by_tilt, held_by_tilt),
+            *(seat, seat_by_tilt),
+            *circle,
+        )
+
+    def slope_bounds(self, one: State, other: State, width: Any) -> tuple[Any, Any]:
+        numbers, gain = self._numbers, self._law.gain
+        _, _, seat, seat_by_tilt, *circle = one
+        _, _, other_seat, other_seat_by_tilt, *other_circle = other
+        amplitude = gain * self._share * math.hypot(1.0, self._law.tilting)
+        least, greatest = wave_bounds(
+            numbers,
+            *(seat_by_tilt, gain - seat),
+            *(other_seat_by_tilt, gain - other_seat),
+            amplitude,
+        )
+        low, high = self._circle.slope_bounds(tuple(circle), tuple(other_circle), width)
+        # By how much the seat holds more at the ends, and how far that can change in between.
+        lead, other_lead = seat - circle[0], other_seat - other_circle[0]
+        drift = width * numbers.greatest(abs(greatest - low), abs(high - least))
+        leads = lead + other_lead > drift
+        follows = lead + other_lead < -drift
+        choose = numbers.choose
+        return (
+            choose(leads, least, choose(follows, low, numbers.least(least, low))),
+            choose(leads, greatest, choose(follows, high, numbers.greatest(greatest, high))),
+        )
+
+    def by_share(self, state: State) -> Any:
+        _, _, seat, _, *circle = state
+        held, _, cos_psi, sin_psi, _ = circle
+        return self._numbers.choose(
+            seat >= held,
+            self._law.gain * (cos_psi + self._law.tilting * sin_psi),
+            self._circle.by_share(tuple(circle)),
+        )
+
+    def _used(self, state: State, moment: Any) -> tuple[Any, Any, Any]:
+        """Return μ', which is μ times the share of κ that f takes up, 1 + c μ'² and n."""
+        capacity, _, _, _, _, _, cos_psi, sin_psi, _ = state
+        used = self._law.friction * moment / capacity
+        divisor = 1.0 + self._law.coupling * used * used
+        pushed = 1.0 + self._share * (cos_psi + used * self._law.zone.axial_friction * sin_psi)
+        return used, divisor, pushed / divisor
+
+    def normal(self, state: State, moment: Any) -> Any:
+        return self._used(state, moment)[2]
+
+    def normal_slopes(self, state: State, moment: Any) -> NormalSlopes:
+        capacity, capacity_by_tilt, _, _, _, _, cos_psi, sin_psi, _ = state
+        law, share = self._law, self._share
+        used, divisor, normal = self._used(state, moment)
+        tilting = used * law.zone.axial_friction
+        by_used = law.zone.axial_friction * share * sin_psi
+        by_used = (by_used - 2.0 * law.coupling * used * normal) / divisor
+        return (
+            normal,
+            (cos_psi + tilting * sin_psi) / divisor
+            - by_used * used * self.by_share(state) / capacity,
+            share * (tilting * cos_psi - sin_psi) / divisor
+            - by_used * used * capacity_by_tilt / capacity,
+            by_used * law.friction / capacity,
+        )
+
+    def contact(self, state: State, moment: Any, normal: Any) -> ContactShares:
+        zone = self._law.zone
+        used, _, _ = self._used(state, moment)
+        dragged = used * zone.transverse_friction * normal
+        transverse = dragged - self._share * state[7]
+        pressure = (normal, transverse)
+        friction = (used * zone.axial_friction * transverse, -dragged)
+        return pressure, friction, pressure
+
+    def consistent(self, state: State, moment: Any) -> Any:
+        """The seat presses on the ball."""
+        return self.normal(state, moment) > 0.0

@@ -6,15 +6,15 @@ import math
 from typing import Any
 
 from .law import (
-    Bounds,
-    CapacitySlopes,
+    LEAST,
     ContactLaw,
     ContactShares,
+    LoadedLaw,
     LoadShare,
     NormalSlopes,
-    Turn,
-    square_root,
+    State,
 )
+from .numbers import Numbers, scaled_bounds, wave_bounds
 
 
 class FrictionCircleLaw(ContactLaw):
@@ -29,54 +29,76 @@ class FrictionCircleLaw(ContactLaw):
 
     def __init__(self, friction_coefficient: float, start_angle: float, end_angle: float) -> None:
         super().__init__(friction_coefficient, start_angle, end_angle)
-        self._ratio = friction_coefficient / math.sqrt(1.0 + friction_coefficient**2)
+        self.ratio = friction_coefficient / math.sqrt(1.0 + friction_coefficient**2)
 
-    @staticmethod
-    def _reaction(load: LoadShare, cosine: Any, sine: Any) -> tuple[Any, Any, Any]:
-        """Return the reaction's parts along the axis and across it, and its size."""
-        along, across = 1.0 + load.share * cosine, load.share * sine
-        return along, across, square_root(along * along + across * across)
-
-    def capacity(self, load: LoadShare, cosine: Any, sine: Any) -> Any:
-        return self._ratio * self._reaction(load, cosine, sine)[2]
-
-    def slopes(self, load: LoadShare, cosine: Any, sine: Any) -> CapacitySlopes:
-        _, across, size = self._reaction(load, cosine, sine)
-        scale = self._ratio / size
-        return CapacitySlopes(self._ratio * size, scale * (cosine + load.share), -scale * across)
-
-    def slope_bounds(self, load: LoadShare, cosine: Any, sine: Any, turn: Turn) -> Bounds:
-        cosines, share = turn.bounds(cosine, sine), load.share
-        ends = []
-        for end in (cosines.centre - cosines.radius, cosines.centre + cosines.radius):
-            # No smaller than at ψ = ±π, where the load pulls hardest.
-            square = load.excess * load.excess + 2.0 * share * abs(1.0 + end)
-            ends.append(self._ratio * share / square_root(square))
-        slopes = Bounds.between(*ends).times(turn.bounds(sine, cosine))
-        return Bounds(-slopes.centre, slopes.radius)
-
-    def normal_slopes(self, load: LoadShare, cosine: Any, sine: Any, moment: Any) -> NormalSlopes:
-        _, _, size = self._reaction(load, cosine, sine)
-        normal = square_root(abs((size - moment) * (size + moment)))
-        share = load.share
-        return NormalSlopes(
-            normal, (cosine + share) / normal, -share * sine / normal, -moment / normal
-        )
-
-    def contact(self, load: LoadShare, cosine: Any, sine: Any, moment: Any) -> ContactShares:
-        """The contact lies ahead of the reaction by the angle of friction that is used."""
-        along, across, size = self._reaction(load, cosine, sine)
-        normal = square_root(abs((size - moment) * (size + moment)))
-        # Direction of the contact, along the axis and across it: that of the reaction, turned.
-        to_axis = (normal * along + moment * across) / (size * size)
-        to_side = (moment * along - normal * across) / (size * size)
-        pressure = (normal * to_axis, normal * to_side)
-        return ContactShares(
-            normal, pressure, (moment * to_side, -moment * to_axis), pressure, size > moment
-        )
+    def under(self, load: LoadShare, tilt: tuple[Any, Any], numbers: Numbers) -> LoadedLaw:
+        return LoadedFrictionCircleLaw(self, load, tilt, numbers)
 
     def total_tension(self, axial: float, ahead: float, normal: float) -> float:
         square = normal * normal * (1.0 + self.friction**2) - ahead * ahead
         if square < 0.0:
             return 0.0
         return math.sqrt(square) - axial
+
+
+class LoadedFrictionCircleLaw(LoadedLaw):
+    """`FrictionCircleLaw` under a dead load; its state is κ, ∂κ/∂ψ, cos ψ, sin ψ and R / T."""
+
+    __slots__ = ('_cosine', '_numbers', '_ratio', '_share', '_sine', '_square_root')
+
+    def __init__(
+        self, law: FrictionCircleLaw, load: LoadShare, tilt: tuple[Any, Any], numbers: Numbers
+    ) -> None:
+        self._ratio, self._share, self._numbers = law.ratio, load[0], numbers
+        self._square_root = numbers.square_root
+        self._cosine, self._sine = tilt
+
+    def at(self, cosine: Any, sine: Any) -> State:
+        share, ratio = self._share, self._ratio
+        cos_psi = self._cosine * cosine - self._sine * sine
+        sin_psi = self._sine * cosine + self._cosine * sine
+        along, across = 1.0 + share * cos_psi, share * sin_psi
+        size = self._square_root(along * along + across * across)
+        return ratio * size, -ratio * across / (size + LEAST), cos_psi, sin_psi, size
+
+    def slope_bounds(self, one: State, other: State, width: Any) -> tuple[Any, Any]:  # noqa: ARG002
+        numbers = self._numbers
+        _, _, cos_psi, sin_psi, size = one
+        _, _, other_cos_psi, other_sin_psi, other_size = other
+        # R grows with cos ψ, which comes to 1 or −1 in between where sin ψ changes sign.
+        low, high = numbers.least(size, other_size), numbers.greatest(size, other_size)
+        turns = sin_psi * other_sin_psi < 0.0
+        if numbers.any(turns):
+            side = numbers.choose(cos_psi + other_cos_psi < 0.0, -1.0, 1.0)
+            turned = self.at(side * self._cosine, -side * self._sine)[4]
+            turned = numbers.choose(turns, turned, size)
+            low, high = numbers.least(low, turned), numbers.greatest(high, turned)
+        least, most = wave_bounds(numbers, sin_psi, cos_psi, other_sin_psi, other_cos_psi, 1.0)
+        scale = self._ratio * self._share
+        return scaled_bounds(numbers, -most, -least, scale / (high + LEAST), scale / (low + LEAST))
+
+    def by_share(self, state: State) -> Any:
+        _, _, cos_psi, _, size = state
+        return self._ratio * (cos_psi + self._share) / size
+
+    def normal(self, state: State, moment: Any) -> Any:
+        size = state[4]
+        return self._square_root(abs((size - moment) * (size + moment)))
+
+    def normal_slopes(self, state: State, moment: Any) -> NormalSlopes:
+        _, _, cos_psi, sin_psi, _ = state
+        normal, share = self.normal(state, moment), self._share
+        return (normal, (cos_psi + share) / normal, -share * sin_psi / normal, -moment / normal)
+
+    def contact(self, state: State, moment: Any, normal: Any) -> ContactShares:
+        """The contact lies ahead of the reaction by the angle of friction that is used."""
+        _, _, cos_psi, sin_psi, size = state
+        along, across = 1.0 + self._share * cos_psi, self._share * sin_psi
+        # Direction of the contact, along the axis and across it: that of the reaction, turned.
+        to_axis = (normal * along + moment * across) / (size * size)
+        to_side = (moment * along - normal * across) / (size * size)
+        pressure = (normal * to_axis, normal * to_side)
+        return pressure, (moment * to_side, -moment * to_axis), pressure
+
+    def consistent(self, state: State, moment: Any) -> Any:
+        return state[4] > moment

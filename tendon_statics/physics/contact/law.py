@@ -11,113 +11,76 @@ it, positive towards the side to which the unit would slip: P presses the unit o
 P_a = |P| cos ψ and drives it to that side with P_t = |P| sin ψ. So no law knows of sides: slipping
 to the other one is the mirror image, and `slip` makes it.
 
-Every method takes floats, or NumPy arrays of one shape, through the same formula.
+A `ContactLaw` belongs to a design. `ContactLaw.under` binds it to the dead load of one pair of
+tensions, or of many in arrays of one shape: a `LoadedLaw`, whose formulas serve both.
 """
 
 from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from typing import Any, NamedTuple
+from typing import Any
+
+from .numbers import Numbers
 
 LEAST = 5e-324
 """Added to a root that may be zero, so that what is divided by it is infinite: no other number
 changes by it"""
 
-
-def square_root(value: Any) -> Any:
-    """√ of a float or an array, the same to the last bit, which may decide a regime."""
-    return math.sqrt(value) if isinstance(value, float) else value**0.5
+State = tuple[Any, ...]
+"""A law at one angle: κ, ∂κ/∂ψ, and what else the law wants to know of it again"""
 
 
-class LoadShare(NamedTuple):
-    """The size of the dead load beside the cable tensions; floats or arrays."""
-
-    share: Any
-    """w = |P| / T"""
-    excess: Any
-    """1 − w, without loss of digits"""
-    product: Any
-    """1 − w², likewise"""
+LoadShare = tuple[Any, Any, Any]
+"""The dead load beside the cable tensions: w, and 1 − w and 1 − w² without loss of digits"""
 
 
-class CapacitySlopes(NamedTuple):
-    """κ and its derivatives by the size of the load and by its direction."""
+NormalSlopes = tuple[Any, Any, Any, Any]
+"""n, ∂n/∂w, ∂n/∂ψ and ∂n/∂f"""
 
-    capacity: Any
-    by_share: Any
-    """∂κ/∂w"""
-    by_tilt: Any
-    """∂κ/∂ψ; the unit's bend angle turns ψ one to one"""
+Pair = tuple[Any, Any]
+"""A force along the unit's axis and across it, to the side of slip, in shares of T"""
 
-
-class NormalSlopes(NamedTuple):
-    """n and its derivatives."""
-
-    normal: Any
-    by_share: Any
-    """∂n/∂w"""
-    by_tilt: Any
-    """∂n/∂ψ"""
-    by_moment: Any
-    """∂n/∂f"""
+ContactShares = tuple[Pair, Pair, Pair]
+"""Resultants of pressure and friction on the unit, and what Eqs. (1) and (2) have in place of the
+pressure"""
 
 
-class ContactShares(NamedTuple):
-    """Forces on the unit in shares of T, along its axis and across it, to the side of slip."""
+class LoadedLaw(ABC):
+    """A contact law under the dead load of one pair of tensions."""
 
-    normal: Any
-    """n"""
-    pressure: tuple[Any, Any]
-    """Resultant of the contact pressure"""
-    friction: tuple[Any, Any]
-    """Resultant of the friction"""
-    balanced: tuple[Any, Any]
-    """What Eqs. (1) and (2) have in place of the pressure"""
-    consistent: Any
-    """Whether the forces are those that Eqs. (1) and (2) ask for"""
+    __slots__ = ()
 
+    @abstractmethod
+    def at(self, cosine: Any, sine: Any) -> State:
+        """Return the law's state for a unit about to slip, from cos θ and sin θ."""
 
-class Bounds(NamedTuple):
-    """A closed interval as its centre and half its width, so that products need no cases."""
+    @abstractmethod
+    def slope_bounds(self, one: State, other: State, width: Any) -> tuple[Any, Any]:
+        """Return bounds of ∂κ/∂ψ between two states, `width` in rad apart, at most half a turn.
 
-    centre: Any
-    radius: Any
+        NaN or infinite where there are none.
+        """
 
-    def times(self, other: Bounds) -> Bounds:
-        """Bounds of the product of two quantities."""
-        return Bounds(
-            self.centre * other.centre,
-            abs(self.centre) * other.radius + self.radius * (abs(other.centre) + other.radius),
-        )
+    @abstractmethod
+    def by_share(self, state: State) -> Any:
+        """Return ∂κ/∂w."""
 
-    @classmethod
-    def between(cls, low: Any, high: Any) -> Bounds:
-        """Bounds of a quantity that goes from one value to another and not beyond."""
-        return cls(0.5 * (low + high), 0.5 * abs(high - low))
+    @abstractmethod
+    def normal(self, state: State, moment: Any) -> Any:
+        """Return n while friction takes up the moment f, which is κ for a unit about to slip."""
 
+    @abstractmethod
+    def normal_slopes(self, state: State, moment: Any) -> NormalSlopes:
+        """Return that and its derivatives."""
 
-class Turn(NamedTuple):
-    """Angles within a half-width h of a middle, h at most π/2."""
+    @abstractmethod
+    def contact(self, state: State, moment: Any, normal: Any) -> ContactShares:
+        """Return the forces on the unit while friction takes up f, with n for it."""
 
-    mean: Any
-    """(1 + cos h) / 2"""
-    spread: Any
-    """(1 − cos h) / 2"""
-    sine: Any
-    """sin h"""
-    half_width: Any
-    """h in rad"""
-
-    @classmethod
-    def by(cls, half_width: float) -> Turn:
-        """All angles within a half-width in rad."""
-        cosine = math.cos(half_width)
-        return cls(0.5 * (1.0 + cosine), 0.5 * (1.0 - cosine), math.sin(half_width), half_width)
-
-    def bounds(self, value: Any, slope: Any) -> Bounds:
-        """Bounds of A cos + B sin, from its value and slope in the middle."""
-        return Bounds(self.mean * value, self.spread * abs(value) + self.sine * abs(slope))
+    @abstractmethod
+    def consistent(self, state: State, moment: Any) -> Any:
+        """Return whether Eqs. (1) and (2) ask for these forces."""
 
 
 class ContactLaw(ABC):
@@ -148,24 +111,16 @@ class ContactLaw(ABC):
     """Whether a dead load beyond the cable tensions, |P| ≥ T, can be carried while it presses"""
 
     @abstractmethod
-    def capacity(self, load: LoadShare, cosine: Any, sine: Any) -> Any:
-        """κ for a unit about to slip, from cos ψ and sin ψ."""
+    def under(self, load: LoadShare, tilt: tuple[Any, Any], numbers: Numbers) -> LoadedLaw:
+        """Return the law under a dead load.
 
-    @abstractmethod
-    def slopes(self, load: LoadShare, cosine: Any, sine: Any) -> CapacitySlopes:
-        """κ and its derivatives."""
-
-    @abstractmethod
-    def slope_bounds(self, load: LoadShare, cosine: Any, sine: Any, turn: Turn) -> Bounds:
-        """Bounds of ∂κ/∂ψ over all ψ that lie within a turn of the one given."""
-
-    @abstractmethod
-    def normal_slopes(self, load: LoadShare, cosine: Any, sine: Any, moment: Any) -> NormalSlopes:
-        """N and its derivatives, while friction takes up the moment f."""
-
-    @abstractmethod
-    def contact(self, load: LoadShare, cosine: Any, sine: Any, moment: Any) -> ContactShares:
-        """Forces on the unit while friction takes up f, which is κ for a unit about to slip."""
+        Parameters
+        ----------
+        tilt : tuple of float
+            cos ψ and sin ψ at zero bend; ψ grows with the bend angle, one to one.
+        numbers : Numbers
+            Of floats or arrays, whichever the others are.
+        """
 
     @abstractmethod
     def total_tension(self, axial: float, ahead: float, normal: float) -> float:

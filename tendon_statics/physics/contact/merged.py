@@ -7,15 +7,14 @@ from typing import Any
 
 from .law import (
     LEAST,
-    Bounds,
-    CapacitySlopes,
     ContactLaw,
     ContactShares,
+    LoadedLaw,
     LoadShare,
     NormalSlopes,
-    Turn,
-    square_root,
+    State,
 )
+from .numbers import Numbers, scaled_bounds, wave_bounds
 
 
 class MergedLaw(ContactLaw):
@@ -38,102 +37,114 @@ class MergedLaw(ContactLaw):
     def __init__(self, friction_coefficient: float, start_angle: float, end_angle: float) -> None:
         super().__init__(friction_coefficient, start_angle, end_angle)
         centre = 0.5 * (start_angle + end_angle)
-        self._sine, self._cosine = math.sin(centre), math.cos(centre)
+        self.sine, self.cosine = math.sin(centre), math.cos(centre)
         excess = (friction_coefficient - 1.0) * (friction_coefficient + 1.0)
-        self._steep = 1.0 / excess if excess > 0.0 else 0.0
+        self.steep = 1.0 / excess if excess > 0.0 else 0.0
 
-    def _direction(self, cosine: Any, sine: Any) -> tuple[Any, Any]:
-        """Return sin φ and cos φ."""
-        return (
-            self._sine * cosine + self._cosine * sine,
-            self._cosine * cosine - self._sine * sine,
-        )
+    def under(self, load: LoadShare, tilt: tuple[Any, Any], numbers: Numbers) -> LoadedLaw:
+        return LoadedMergedLaw(self, load, tilt, numbers)
 
-    def _root(self, load: LoadShare, sin_phi: Any, cos_phi: Any) -> tuple[Any, Any]:
-        """Return n and R / T of a unit about to slip."""
-        share, excess, product = load
-        friction = self.friction
+    def total_tension(self, axial: float, ahead: float, normal: float) -> float:
+        limit = self.friction * normal
+        return normal + math.hypot(limit * self.cosine - ahead, limit * self.sine - axial)
+
+
+class LoadedMergedLaw(LoadedLaw):
+    """`MergedLaw` under a dead load; its state is κ, ∂κ/∂ψ, sin φ, cos φ and μ T / R."""
+
+    __slots__ = (
+        *('_across', '_along', '_excess', '_friction', '_half', '_law', '_less'),
+        *('_may_cancel', '_numbers', '_product', '_share', '_square_root'),
+    )
+
+    def __init__(
+        self, law: MergedLaw, load: LoadShare, tilt: tuple[Any, Any], numbers: Numbers
+    ) -> None:
+        self._law, self._numbers = law, numbers
+        self._share, self._excess, self._product = load
+        self._friction = law.friction
+        self._may_cancel = numbers.any(law.friction * load[0] > 0.99)
+        self._less, self._half = 1.0 - law.friction, 0.5 * law.friction
+        self._square_root = numbers.square_root
+        # sin φ and cos φ at zero bend
+        cosine, sine = tilt
+        self._along = law.sine * cosine + law.cosine * sine
+        self._across = law.cosine * cosine - law.sine * sine
+
+    def at(self, cosine: Any, sine: Any) -> State:
+        sin_phi = self._along * cosine + self._across * sine
+        cos_phi = self._across * cosine - self._along * sine
+        share, excess, product = self._share, self._excess, self._product
         # 1 − μ sin φ from 1 − sin φ = [cos² φ + (1 − sin φ)²] / 2, which does not cancel.
         below_one = 1.0 - sin_phi
-        spare = 1.0 - friction + 0.5 * friction * (cos_phi * cos_phi + below_one * below_one)
+        spare = self._less + self._half * (cos_phi * cos_phi + below_one * below_one)
         b = excess + share * spare
         lift = spare - excess
+        friction = self._friction
         slide = friction * cos_phi
-        root = square_root(lift * lift + product * slide * slide)
-        # B ≤ 0 needs μ > 1; there the other form of the same root is the one that does not cancel.
+        root = self._square_root(lift * lift + product * slide * slide)
         larger = abs(b) + root
-        rising = b > 0.0
-        return rising * (product / larger) + (1 - rising) * (self._steep * larger), root
-
-    def capacity(self, load: LoadShare, cosine: Any, sine: Any) -> Any:
-        return self.friction * self._root(load, *self._direction(cosine, sine))[0]
-
-    def slopes(self, load: LoadShare, cosine: Any, sine: Any) -> CapacitySlopes:
-        sin_phi, cos_phi = self._direction(cosine, sine)
-        normal, root = self._root(load, sin_phi, cos_phi)
-        friction, share = self.friction, load.share
+        normal = product / larger
+        if self._may_cancel:  # where B < 0, and the other form of the same root does not
+            normal = self._numbers.choose(b > 0.0, normal, self._law.steep * larger)
         capacity = friction * normal
         steepness = friction / (root + LEAST)
-        return CapacitySlopes(
-            capacity,
-            (capacity * sin_phi - share) * steepness,
-            share * capacity * cos_phi * steepness,
-        )
+        return capacity, share * capacity * cos_phi * steepness, sin_phi, cos_phi, steepness
 
-    def slope_bounds(self, load: LoadShare, cosine: Any, sine: Any, turn: Turn) -> Bounds:
+    def slope_bounds(self, one: State, other: State, width: Any) -> tuple[Any, Any]:  # noqa: ARG002
         # n / R grows with sin φ: its derivative by it is μ w n (R + B) / R³, never negative.
-        sin_phi, cos_phi = self._direction(cosine, sine)
-        sines = turn.bounds(sin_phi, cos_phi)
-        ends = []
-        for end in (sines.centre - sines.radius, sines.centre + sines.radius):
-            within = _clipped(end)
-            normal, root = self._root(load, within, square_root(abs(1.0 - within * within)))
-            ends.append(normal / (root + LEAST))
-        scale = self.friction * self.friction * load.share
-        gain = Bounds.between(scale * ends[0], scale * ends[1])
-        return gain.times(turn.bounds(cos_phi, sin_phi))
+        numbers, share = self._numbers, self._share
+        capacity, _, sin_phi, cos_phi, steepness = one
+        other_capacity, _, other_sin_phi, other_cos_phi, other_steepness = other
+        gain = share * capacity * steepness
+        other_gain = share * other_capacity * other_steepness
+        low, high = numbers.least(gain, other_gain), numbers.greatest(gain, other_gain)
+        turns = cos_phi * other_cos_phi < 0.0
+        if numbers.any(turns):
+            # sin φ comes to 1 or −1 in between.
+            side = numbers.choose(sin_phi + other_sin_phi < 0.0, -1.0, 1.0)
+            capacity, _, _, _, steepness = self.at(side * self._along, side * self._across)
+            gain = numbers.choose(turns, share * capacity * steepness, other_gain)
+            low, high = numbers.least(low, gain), numbers.greatest(high, gain)
+        least, most = wave_bounds(numbers, cos_phi, sin_phi, other_cos_phi, other_sin_phi, 1.0)
+        return scaled_bounds(numbers, least, most, low, high)
 
-    @staticmethod
-    def _lifted(load: LoadShare, sin_phi: Any, moment: Any) -> tuple[Any, Any]:
+    def by_share(self, state: State) -> Any:
+        capacity, _, sin_phi, _, steepness = state
+        return (capacity * sin_phi - self._share) * steepness
+
+    def _lifted(self, sin_phi: Any, moment: Any) -> tuple[Any, Any]:
         """Return n and (T − N) / T that Eqs. (1) and (2) ask for with the friction F = M / r."""
-        share = load.share
+        share = self._share
         square = moment * moment + share * share - 2.0 * share * moment * sin_phi
-        lift = square_root(abs(square))
+        lift = self._square_root(abs(square))
         # 1 − lift, without loss of digits where it is small.
-        return (load.product + moment * (2.0 * share * sin_phi - moment)) / (1.0 + lift), lift
+        return (self._product + moment * (2.0 * share * sin_phi - moment)) / (1.0 + lift), lift
 
-    def normal_slopes(self, load: LoadShare, cosine: Any, sine: Any, moment: Any) -> NormalSlopes:
-        sin_phi, cos_phi = self._direction(cosine, sine)
-        share = load.share
-        normal, lift = self._lifted(load, sin_phi, moment)
+    def normal(self, state: State, moment: Any) -> Any:
+        return self._lifted(state[2], moment)[0]
+
+    def normal_slopes(self, state: State, moment: Any) -> NormalSlopes:
+        _, _, sin_phi, cos_phi, _ = state
+        share = self._share
+        normal, lift = self._lifted(sin_phi, moment)
         divisor = lift + LEAST
-        return NormalSlopes(
+        return (
             normal,
             (moment * sin_phi - share) / divisor,
             share * moment * cos_phi / divisor,
             (share * sin_phi - moment) / divisor,
         )
 
-    def contact(self, load: LoadShare, cosine: Any, sine: Any, moment: Any) -> ContactShares:
-        """Both forces act at β from the unit's axis; Eqs. (1) and (2) have N along it.
-
-        They ask for the root taken, N < T, while F sin φ > |P|.
-        """
-        sin_phi, _ = self._direction(cosine, sine)
-        normal, _ = self._lifted(load, sin_phi, moment)
-        return ContactShares(
-            normal,
-            (normal * self._cosine, normal * self._sine),
-            (moment * self._sine, -moment * self._cosine),
+    def contact(self, state: State, moment: Any, normal: Any) -> ContactShares:  # noqa: ARG002
+        """Both forces act at β from the unit's axis; Eqs. (1) and (2) have N along it."""
+        sine, cosine = self._law.sine, self._law.cosine
+        return (
+            (normal * cosine, normal * sine),
+            (moment * sine, -moment * cosine),
             (normal, 0.0 * normal),
-            moment * sin_phi > load.share,
         )
 
-    def total_tension(self, axial: float, ahead: float, normal: float) -> float:
-        limit = self.friction * normal
-        return normal + math.hypot(limit * self._cosine - ahead, limit * self._sine - axial)
-
-
-def _clipped(sine: Any) -> Any:
-    """A sine that rounding, or a bound, has put beyond ±1, back at it."""
-    return 0.5 * (abs(sine + 1.0) - abs(sine - 1.0))
+    def consistent(self, state: State, moment: Any) -> Any:
+        """They ask for the root taken, N < T, while F sin φ > |P|."""
+        return moment * state[2] > self._share

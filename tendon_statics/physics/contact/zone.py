@@ -26,7 +26,7 @@ class SeatConstants(NamedTuple):
 
     @property
     def coupling(self) -> float:
-        """C, by which friction relieves the seat along the axis."""
+        """Coupling c: by how much friction relieves the seat along the axis."""
         return self.axial_friction * self.transverse_friction
 
 

@@ -6,7 +6,7 @@ import dataclasses
 import math
 from collections.abc import Sequence
 
-from ...files.unit_parameters import TENSION_SOURCES
+from ...files.cable_parameters import TENSION_SOURCES
 from ..errors import RecordingError
 from .clock import CLOCKS
 

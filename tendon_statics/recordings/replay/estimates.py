@@ -3,38 +3,31 @@
 from __future__ import annotations
 
 import dataclasses
-import itertools
 import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...physics import (
-    UPRIGHT,
-    Equilibrium,
-    JointDesign,
-    Load,
-    StickSlipTracker,
-    TensionError,
-)
+from ...estimation.regimes import INVALID
+from ...estimation.settings import Settings
+from ...estimation.unit_estimator import KnownLoad, UnitEstimator
+from ...physics import Equilibrium, JointDesign, Load, TensionError
 from ...physics.admissible import check_bend_angle
 from ...physics.batch import solve_batch
 from ...physics.tensions import MAX_TENSION
-from ...tensions.cable_scale import CableScale, scaled_arrays
-from ...tensions.reason import Reason
+from ...tensions.cable_scale import scaled_arrays
+from ...tensions.reason import ReadingError, Reason
+from ...tensions.watch import PairWatch
 from ..progress import Progress, unseen
 from ..reading.columns import READINGS
 from ..recording import OF_LOAD, Floats, Recording
-from ..scaling import usable, worse_reasons
+from ..scaling import worse_reasons
 
 CHUNK = 20_000
 """Samples solved at once, after which progress is shown"""
 
 VALID = 'valid'
-
-INVALID = 'invalid'
-"""Regime of a sample that the model does not take"""
 
 
 class Replay(NamedTuple):
@@ -53,7 +46,7 @@ class Replay(NamedTuple):
     pressure_stddev: Floats
     slip_margin: Floats
     angle_assured: NDArray[np.bool_]
-    """False where a cable has been slack, until a stop: a tracked unit may have moved"""
+    """False after what cannot vouch for a tracked unit, such as a slack cable, until a stop"""
     validity: NDArray[np.str_]
     """``valid``, or why a sample is not, in the node's words (`Reason`)"""
 
@@ -101,18 +94,22 @@ def replay(
     recording: Recording,
     estimation: str = 'equilibrium',
     *,
-    load: Load = UPRIGHT,
-    initial_bend_angle: float = 0.0,
-    tension_stddev: float = 0.01,
+    settings: Settings | None = None,
+    load: Load | None = None,
+    initial_bend_angle: float | None = None,
+    tension_stddev: float | None = None,
     progress: Progress = unseen,
 ) -> Replay:
-    """Estimate every sample of a recording.
+    """Estimate every sample of a recording, as the node does with the same settings.
 
     Parameters
     ----------
     estimation : str
         ``equilibrium``: each sample by itself, as `solve` does; ``tracking``: with the memory of a
         `StickSlipTracker`.
+    settings : Settings
+        How the unit is measured and what is believed; the design of it is not looked at. What
+        follows changes it, where it is given.
     load : Load
         What acts beside the cables; what was recorded of it comes first.
     initial_bend_angle : float
@@ -131,49 +128,98 @@ def replay(
     TensionError
         If the deviation is not finite and above 0.
     """
-    if not 0.0 < tension_stddev < math.inf:
-        raise TensionError(
-            f'tension_stddev is {tension_stddev!r} N, allowed is a finite number above 0'
-        )
-    check_bend_angle(design, initial_bend_angle)
-    faults = _faults(recording)
-    given = recording
-    recording = usable(dataclasses.replace(recording, faults=faults))
+    settings = settings or Settings(design)
+    load = load or settings.load
+    stddev = settings.tension_stddev if tension_stddev is None else tension_stddev
+    if not 0.0 < stddev < math.inf:
+        raise TensionError(f'tension_stddev is {stddev!r} N, allowed is a finite number above 0')
+    angle = settings.initial_bend_angle if initial_bend_angle is None else initial_bend_angle
+    check_bend_angle(design, angle)
+    settings = dataclasses.replace(
+        settings, design=design, tension_stddev=stddev, initial_bend_angle=angle
+    )
+    samples = _Samples(recording, settings)
     loads = recording.loads(load)
     starts = progress(range(0, len(recording), CHUNK), 'solving')
     if estimation == 'equilibrium':
-        parts = [_solved(design, recording, loads, start, tension_stddev) for start in starts]
+        parts = [_solved(samples, loads, start) for start in starts]
     else:
         recording.in_order()
-        tracker = StickSlipTracker(design, initial_bend_angle)
-        parts = [_tracked(tracker, recording, loads, start, tension_stddev) for start in starts]
+        unit = UnitEstimator(settings, estimation)
+        parts = [_tracked(unit, samples, loads, start) for start in starts]
     regime, numbers, assured = zip(*parts, strict=True)
-    angle, angle_stddev, pressure, pressure_stddev, margin = np.concatenate(numbers, axis=1)
+    angles, angle_stddev, pressure, pressure_stddev, margin = np.concatenate(numbers, axis=1)
     regimes = np.concatenate(regime)
-    faults = [
+    validity = [
         fault or (Reason.BELOW_WEIGHT.value if name == INVALID else VALID)
-        for fault, name in zip(faults, regimes.tolist(), strict=True)
+        for fault, name in zip(samples.faults, regimes.tolist(), strict=True)
     ]
     return Replay(
-        given,
+        recording,
         load,
         estimation,
         regimes,
-        angle,
+        angles,
         angle_stddev,
         pressure,
         pressure_stddev,
         margin,
         np.concatenate(assured),
-        np.array(faults, dtype=np.str_),
+        np.array(validity, dtype=np.str_),
     )
 
 
-def _faults(recording: Recording) -> list[str]:
-    """Why each sample is no pair of tensions, as far as that is seen without a design."""
-    limits = CableScale(max_tension=MAX_TENSION)
+class _Samples:
+    """Samples as the estimator takes them, one after the other."""
+
+    def __init__(self, recording: Recording, settings: Settings) -> None:
+        self.settings = settings
+        self.tensions = recording.tensions()
+        self.times = _times(recording)
+        self.faults = _faults(recording, settings)
+        """Why each is no pair of tensions, in the node's words; more may be found later on"""
+        self.watch = PairWatch()
+
+    def part(self, start: int) -> range:
+        """Return the places of those that are solved at once."""
+        return range(start, min(start + CHUNK, len(self.tensions)))
+
+    def judged(self, place: int) -> tuple[float, float]:
+        """Return the tensions of a sample, 0 of a slack cable, NaN if it is not plausible."""
+        if not self.faults[place]:
+            try:
+                return self.watch.take(
+                    self.tensions[place],
+                    self.times[place][1],
+                    self.settings.scales,
+                    self.settings.plausibility,
+                )
+            except ReadingError as error:
+                self.faults[place] = error.reason.value
+        return math.nan, math.nan
+
+
+def _times(recording: Recording) -> list[tuple[float, float]]:
+    """The time of each sample in s twice: for gaps, where one without is at that before, as is."""
+    if recording.time is None:
+        return [(0.0, math.nan)] * len(recording)
+    measured = recording.time.tolist()
+    present, now = [], 0.0
+    for time in measured:
+        now = now if math.isnan(time) else time
+        present.append(now)
+    return list(zip(present, measured, strict=True))
+
+
+def _faults(recording: Recording, settings: Settings) -> list[str]:
+    """Why each sample is no pair of tensions, as far as that is seen of it alone."""
     found = worse_reasons(
-        *(scaled_arrays(of, limits)[1] for of in (recording.tension_l, recording.tension_s))
+        *(
+            scaled_arrays(of, scale._replace(gain=1.0, bias=0.0, max_tension=MAX_TENSION))[1]
+            for of, scale in zip(
+                (recording.tension_l, recording.tension_s), settings.scales, strict=True
+            )
+        )
     )
     known = recording.known_faults
     return [before or now for before, now in zip(known, found.tolist(), strict=True)]
@@ -183,22 +229,18 @@ _Part = tuple[NDArray[np.str_], Floats, NDArray[np.bool_]]
 """Regimes, the five numbers of each sample in rows, and whether the angle is assured"""
 
 
-def _solved(
-    design: JointDesign,
-    recording: Recording,
-    loads: Load | list[Load],
-    start: int,
-    tension_stddev: float,
-) -> _Part:
-    part = slice(start, start + CHUNK)
-    of_part = loads if isinstance(loads, Load) else loads[part]
-    answers = solve_batch(design, recording.tension_l[part], recording.tension_s[part], of_part)
+def _solved(samples: _Samples, loads: Load | list[Load], start: int) -> _Part:
+    settings, part = samples.settings, samples.part(start)
+    pairs = np.array([samples.judged(place) for place in part])
+    tension_l, tension_s = pairs.reshape(-1, 2).T
+    of_part = loads if isinstance(loads, Load) else loads[part.start : part.stop]
+    answers = solve_batch(settings.design, tension_l, tension_s, of_part)
     numbers = np.stack(
         [
             answers.bend_angle,
-            answers.bend_angle_stddev(tension_stddev),
+            answers.bend_angle_stddev(settings.tension_stddev),
             answers.pressure,
-            answers.pressure_stddev(tension_stddev),
+            answers.pressure_stddev(settings.tension_stddev),
             answers.slip_margin,
         ]
     )
@@ -206,28 +248,27 @@ def _solved(
 
 
 def _tracked(
-    tracker: StickSlipTracker,
-    recording: Recording,
-    loads: Load | list[Load],
-    start: int,
-    tension_stddev: float,
+    unit: UnitEstimator, samples: _Samples, loads: Load | list[Load], start: int
 ) -> _Part:
     regimes, rows, assured = [], [], []
-    part = slice(start, start + CHUNK)
-    pairs = zip(
-        recording.tension_l[part].tolist(), recording.tension_s[part].tolist(), strict=True
-    )
-    of_part = itertools.repeat(loads) if isinstance(loads, Load) else loads[part]
-    for tensions, load in zip(pairs, of_part, strict=False):
+    stddev = samples.settings.tension_stddev
+    for place in samples.part(start):
+        known = KnownLoad(loads if isinstance(loads, Load) else loads[place])
+        now, measured = samples.times[place]
+        fault = samples.faults[place]
         try:
-            state = tracker.update(*tensions, load)
-        except TensionError:
+            if fault:
+                unit.drop(Reason(fault), fault)
+                raise ReadingError(Reason(fault), fault)
+            state = unit.take_tensions(*samples.tensions[place], known, now, measured)
+        except ReadingError as error:
+            samples.faults[place] = error.reason.value
             regimes.append(INVALID)
             rows.append((math.nan,) * 5)
             assured.append(False)
             continue
         regimes.append(state.regime.value)
-        rows.append((*_estimates(state, tension_stddev), _number(state.slip_margin)))
+        rows.append((*_estimates(state, stddev), _number(state.slip_margin)))
         assured.append(state.angle_assured)
     return np.array(regimes), np.array(rows).reshape(-1, 5).T, np.array(assured)
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
-from .files.parameter_file import node_parameter
-from .files.yaml_file import YamlFileError, read_yaml
-from .physics.errors import TendonStaticsError
+from ..files.parameter_file import node_parameter
+from ..files.yaml_file import YamlFileError, read_yaml
+from ..physics.errors import TendonStaticsError
 
 
 class JointNameError(TendonStaticsError, ValueError):

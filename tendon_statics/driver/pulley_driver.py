@@ -9,33 +9,30 @@ from __future__ import annotations
 import json
 import math
 from collections import Counter
+from collections.abc import Mapping
 from typing import Any
 
 from rclpy.clock import Clock, ClockType
 from rclpy.logging import get_logger
 from rclpy.node import Node
 
+from ..files.cable_parameters import BIASES, GAINS
+from ..files.driver_parameters import DRIVER_PARAMETERS
+from ..files.fault_settings import STAMP_FAULTS, Fault, FaultSettings, fault_parameters
 from ..files.installed_files import installed_config
-from ..files.number_parameter import NumberParameter, SettingError
-from ..files.unit_parameters import BIASES, GAINS
+from ..files.parameter_kinds import SettingError
+from ..node.parameters.declaration import declare_all
+from ..node.parameters.unknown import warn_of_unknown_parameters
+from ..node.program import StartError
 from ..recordings.errors import RecordingError
 from ..recordings.reading.load import load_recording
-from .faults import STAMP_FAULTS, Fault, FaultMaker, FaultSettings, Reading, fault_parameters
-from .parameters import (
-    declare_cable_names,
-    declare_fixed,
-    declare_number,
-    declare_tension_source,
-    declare_wrench_component,
-)
-from .program import StartError
-from .tension_publishers import (
+from .faults import FaultMaker, Reading
+from .publishers import (
     ArrayPublisher,
     JointStatePublisher,
     TensionPublisher,
     WrenchPairPublisher,
 )
-from .unknown_parameters import warn_of_unknown_parameters
 
 SHORTEST_TICK, LONGEST_TICK = 0.001, 0.1
 """s between two looks at what is due; a timer in Python is not good for more of them"""
@@ -43,48 +40,24 @@ SHORTEST_TICK, LONGEST_TICK = 0.001, 0.1
 CATCH_UP_TIME = 0.1
 """s; readings that are later than that are skipped, so that no backlog grows"""
 
-RATE = NumberParameter(
-    'rate', 10.0, 0.01, 20000.0, 'Hz', 'readings per second, of real time also with use_sim_time'
-)
-COUNT = NumberParameter(
-    'count', 0, 0, 10**15, '', 'readings after which it sends no more; 0: endless'
-)
-AWAITED_SUBSCRIBERS = NumberParameter(
-    'awaited_subscribers',
-    0,
-    0,
-    100,
-    '',
-    'subscribers on each topic of tensions that it has to have found before the first reading',
-)
-
 
 class PulleyDriver(Node):
     """Publishes the rows of a tension file at a steady rate."""
 
     def __init__(self) -> None:
         super().__init__('pulley_driver')
-        path = declare_fixed(
-            self,
-            'file',
-            '',
-            'recording of tensions to play, CSV, Parquet or a bag; empty: demo_tensions.csv',
+        values = declare_all(self, DRIVER_PARAMETERS)
+        self._loop, self._rate, self._count = values['loop'], values['rate'], values['count']
+        self._awaited_subscribers = values['awaited_subscribers']
+        self._publisher = self._make_publisher(values)
+        self._gains = [values[gain.name] for gain in GAINS]
+        self._biases = [values[bias.name] for bias in BIASES]
+        settings = FaultSettings(
+            **{fault.name: values[fault.name] for fault in fault_parameters()}
         )
-        self._loop = declare_fixed(self, 'loop', True, 'whether to begin anew after the last row')
-        self._publisher = self._make_publisher()
         try:
-            self._rate = self._declare_number(RATE)
-            self._count = self._declare_number(COUNT)
-            self._awaited_subscribers = self._declare_number(AWAITED_SUBSCRIBERS)
-            self._gains = [self._declare_number(gain) for gain in GAINS]
-            self._biases = [self._declare_number(bias) for bias in BIASES]
-            settings = FaultSettings(
-                **{
-                    parameter.name: self._declare_number(parameter)
-                    for parameter in fault_parameters()
-                }
-            )
-            recording = load_recording(path or installed_config('demo_tensions.csv')).whole()
+            path = values['file'] or installed_config('demo_tensions.csv')
+            recording = load_recording(path).whole()
         except RecordingError as error:
             raise StartError(str(error)) from None
         warn_of_unknown_parameters(self)
@@ -118,22 +91,13 @@ class PulleyDriver(Node):
         self._end()
         super().destroy_node()
 
-    # Parameters
-
-    def _declare_number(self, parameter: NumberParameter) -> Any:
-        value = declare_number(self, parameter, read_only=True)
-        parameter.check(value)
-        return value
-
-    def _make_publisher(self) -> TensionPublisher:
-        source = declare_tension_source(self)
-        names = declare_cable_names(self)
-        component = declare_wrench_component(self)
+    def _make_publisher(self, values: Mapping[str, Any]) -> TensionPublisher:
+        source = values['tension_source']
         if source == 'array':
             return ArrayPublisher(self)
         if source == 'joint_state':
-            return JointStatePublisher(self, names)
-        return WrenchPairPublisher(self, component)
+            return JointStatePublisher(self, values['cable_names'])
+        return WrenchPairPublisher(self, values['wrench_component'])
 
     # Sending
 

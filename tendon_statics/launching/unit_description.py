@@ -7,15 +7,20 @@ from xml.parsers.expat import ExpatError
 
 from ament_index_python.packages import get_package_share_directory
 
+from ..physics.errors import TendonStaticsError
 from .joint_names import JointNames
-from .physics.errors import TendonStaticsError
 
 
 class DescriptionError(TendonStaticsError, RuntimeError):
     """A unit cannot be described; the text is for the user."""
 
 
-def unit_description(design_file: str | Path, names: JointNames, unit: str = 'unit') -> str:
+def unit_description(
+    design_file: str | Path,
+    names: JointNames,
+    unit: str = 'unit',
+    base_turn: tuple[float, float] | None = None,
+) -> str:
     """Expand ``urdf/unit.urdf.xacro``.
 
     Parameters
@@ -26,6 +31,9 @@ def unit_description(design_file: str | Path, names: JointNames, unit: str = 'un
         Those of the estimator.
     unit
         The link of the unit.
+    base_turn
+        Roll and pitch in rad of the joint's frame in a link with Z up, which is then there too,
+        with ``_base`` after the name of the frame.
 
     Raises
     ------
@@ -47,6 +55,13 @@ def unit_description(design_file: str | Path, names: JointNames, unit: str = 'un
         'parent': names.frame_id,
         'joint_name': names.joint_name,
     }
+    if base_turn is not None:
+        roll, pitch = base_turn
+        arguments |= {
+            'base': f'{names.frame_id}_base',
+            'base_roll': repr(roll),
+            'base_tilt': repr(pitch),
+        }
     try:
         description: str = xacro.process_file(str(urdf), mappings=arguments).toxml()
     except (xacro.XacroException, ExpatError) as error:

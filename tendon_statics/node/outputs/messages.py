@@ -9,10 +9,13 @@ from typing import Any
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from std_msgs.msg import Float64MultiArray, Header, MultiArrayDimension
 
-from ..physics import (
+from ...estimation.unit_estimator import KnownLoad
+from ...physics import (
     BendAngleError,
     Equilibrium,
     JointDesign,
+    Load,
+    LoadError,
     TensionGradient,
     UnreachableError,
     tensions_for,
@@ -23,6 +26,7 @@ __all__ = [
     'Estimate',
     'Solve',
     'SolveInverse',
+    'asked_load',
     'fill_estimate',
     'fill_intervals',
     'fill_inverse_response',
@@ -31,7 +35,6 @@ __all__ = [
     'refuse',
     'refuse_inverse',
     'refuse_solve',
-    'type_name',
 ]
 
 # The node works without the package nested in interfaces/, but offers less.
@@ -46,12 +49,6 @@ else:
 
 
 _UNKNOWN_GRADIENT = TensionGradient(math.nan, math.nan)
-
-
-def type_name(message_type: type) -> str:
-    """Return a type as ROS writes it, say ``std_msgs/msg/String``."""
-    package, kind, *_ = message_type.__module__.split('.')
-    return f'{package}/{kind}/{message_type.__name__}'
 
 
 def fill_intervals(
@@ -93,7 +90,7 @@ def fill_unit_pose(
     # ∂(x, y, z, rotation about x, y, z) / ∂θ
     gradient = (design.com_distance * cosine, 0.0, -design.com_distance * sine, 0.0, 1.0, 0.0)
     variance = bend_angle_stddev * bend_angle_stddev
-    message.pose.covariance = [variance * a * b for a in gradient for b in gradient]
+    message.pose.covariance = [variance * (a * b) for a in gradient for b in gradient]
     return message
 
 
@@ -104,6 +101,8 @@ def fill_estimate(
     intervals: Sequence[tuple[float, float]],
     tension_stddev: float,
     header: Header,
+    *,
+    load_assured: bool = True,
 ) -> Estimate:
     """Put all that is known from one pair of tensions into a message.
 
@@ -135,6 +134,16 @@ def fill_estimate(
         message.root_count = message.iterations = 0
         message.stable = False
         message.residual = math.nan
+    load = result.load
+    message.contact_law = result.design.contact_law
+    (
+        message.gravity_direction_x,
+        message.gravity_direction_y,
+        message.gravity_direction_z,
+    ) = load.gravity_direction
+    message.tip_force_x, message.tip_force_z = load.tip_force
+    message.tip_distance = load.tip_distance
+    message.load_assured = load_assured
     message.branch_consistent = bool(result.branch_consistent)
     message.pressure_force_x, message.pressure_force_z = forces[:2]
     message.friction_force_x, message.friction_force_z = forces[2:]
@@ -144,8 +153,32 @@ def fill_estimate(
     return message
 
 
+def asked_load(request: Solve.Request, known: KnownLoad) -> KnownLoad:
+    """Return the load of a request of ``~/solve``, or the one that is known.
+
+    Raises
+    ------
+    LoadError
+        If it is not valid, or gives a tip force without gravity's direction.
+    """
+    direction = tuple(map(float, request.gravity_direction))
+    tip_force, distance = (request.tip_force_x, request.tip_force_z), request.tip_distance
+    if any(direction):
+        return KnownLoad(Load(direction, tip_force, distance))  # type: ignore[arg-type]
+    if any((*tip_force, distance)):
+        raise LoadError(
+            f'the tip force is {tip_force!r} N at {distance!r} m, but gravity_direction is 0, '
+            'which asks for the load of the node: give the direction too, say (0, 0, -1)'
+        )
+    return known
+
+
 def fill_solve_response(
-    response: Solve.Response, equilibrium: Equilibrium, tension_stddev: float
+    response: Solve.Response,
+    equilibrium: Equilibrium,
+    tension_stddev: float,
+    *,
+    load_assured: bool,
 ) -> Solve.Response:
     """Put a result into a response of ``~/solve``."""
     response.success = True
@@ -155,6 +188,7 @@ def fill_solve_response(
     response.bend_angle_stddev = _number(equilibrium.bend_angle_stddev(tension_stddev))
     response.root_count = equilibrium.root_count
     response.stable = bool(equilibrium.stable)
+    response.load_assured = load_assured
     return response
 
 
@@ -173,7 +207,10 @@ def refuse_solve(response: Solve.Response, reason: str) -> Solve.Response:
 
 
 def fill_inverse_response(
-    response: SolveInverse.Response, design: JointDesign, request: SolveInverse.Request
+    response: SolveInverse.Response,
+    design: JointDesign,
+    request: SolveInverse.Request,
+    load: Load,
 ) -> SolveInverse.Response:
     """Answer ``~/solve_inverse``, also with the reason for no result."""
     try:
@@ -182,6 +219,7 @@ def fill_inverse_response(
             request.bend_angle,
             pressure=request.pressure or None,  # 0 stands for not given
             total_tension=request.total_tension or None,
+            load=load,
         )
     except (UnreachableError, BendAngleError) as error:
         return refuse_inverse(response, str(error))

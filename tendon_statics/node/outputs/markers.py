@@ -10,48 +10,40 @@ from geometry_msgs.msg import Point
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ..physics import Equilibrium, JointDesign, Regime
+from ...estimation.regimes import REGIME_COLOURS, red_green_blue
+from ...physics import Equilibrium
 
 NAMESPACE = 'tendon_statics'
-UNIT, BAND, LABEL = range(3)
+UNIT, BAND, LABEL, GRAVITY, TIP_FORCE = range(5)
 """Identifiers of the markers"""
 
 ARC_STEP = math.radians(2.0)
 
-# Okabe and Ito's palette, told apart with any colour vision.
-COLOURS = {
-    Regime.EQUILIBRIUM: (0.90, 0.62, 0.00),
-    Regime.HELD: (0.00, 0.62, 0.45),
-    Regime.SLIPPING: (0.80, 0.47, 0.65),
-    Regime.DRIVEN_TO_STOP: (0.84, 0.37, 0.00),
-    Regime.SLACK: (0.60, 0.60, 0.60),
-}
+GRAVITY_COLOUR, FORCE_COLOUR = (0.3, 0.3, 0.3), (0.8, 0.1, 0.1)
 
 
 def unit_markers(
-    design: JointDesign,
-    result: Equilibrium,
-    intervals: Sequence[tuple[float, float]],
-    header: Header,
+    result: Equilibrium, intervals: Sequence[tuple[float, float]], header: Header
 ) -> MarkerArray:
-    """Draw the unit at its angle, the angles at which friction can hold it, and the regime.
+    """Draw the unit at its angle, the angles at which friction can hold it, regime and load.
 
     What is not determined is not drawn, and taken away if it was. Lengths in m, in the joint
-    frame: Z along the unit at zero bend, X towards cable s.
+    frame: Z along the unit at zero bend, X towards cable s. So all is drawn tilted where the base
+    is, if its frame is known to be; the arrow of gravity shows which direction was taken.
     """
+    design, load = result.design, result.load
     length = 2.0 * max(abs(design.com_distance), design.ball_radius)
     along = math.copysign(1.0, design.com_distance)
-    colour = COLOURS[result.regime]
-    markers = [_marker(kind, header) for kind in (UNIT, BAND, LABEL)]
-    unit, band, label = markers
+    colour = red_green_blue(REGIME_COLOURS[result.regime])
+    kinds = (UNIT, BAND, LABEL, GRAVITY, TIP_FORCE)
+    markers = [_marker(kind, header) for kind in kinds]
+    unit, band, label, gravity, tip_force = markers
 
     if result.bend_angle is None:
         unit.action = Marker.DELETE
     else:
-        unit.type = Marker.ARROW
-        unit.points = [Point(), _on_arc(along * length, result.bend_angle)]
-        unit.scale.x, unit.scale.y = 0.5 * design.ball_radius, design.ball_radius
-        unit.color = _colour(colour, 1.0)
+        end = _on_arc(along * length, result.bend_angle)
+        _make_arrow(unit, Point(), end, 0.5 * design.ball_radius, colour)
 
     if not intervals:
         band.action = Marker.DELETE
@@ -68,6 +60,24 @@ def unit_markers(
     label.pose.position.z = 1.3 * along * length
     label.scale.z = 0.5 * design.ball_radius
     label.color = _colour(colour, 1.0)
+
+    x, y, z = (0.7 * length * part for part in load.gravity_direction)
+    beside = -2.0 * design.ball_radius
+    _make_arrow(
+        gravity,
+        Point(y=beside),
+        Point(x=x, y=beside + y, z=z),
+        0.2 * design.ball_radius,
+        GRAVITY_COLOUR,
+    )
+    force = math.hypot(*load.tip_force)
+    if result.bend_angle is None or not force > 0.0:
+        tip_force.action = Marker.DELETE
+    else:
+        x, z = (0.7 * length * part / force for part in load.tip_force)
+        tip = _on_arc(load.tip_distance, result.bend_angle)
+        start = Point(x=tip.x - x, z=tip.z - z)
+        _make_arrow(tip_force, start, tip, 0.2 * design.ball_radius, FORCE_COLOUR)
     return MarkerArray(markers=markers)
 
 
@@ -82,6 +92,15 @@ def _marker(kind: int, header: Header) -> Marker:
     marker = Marker(header=header, ns=NAMESPACE, id=kind, action=Marker.ADD)
     marker.pose.orientation.w = 1.0
     return marker
+
+
+def _make_arrow(
+    marker: Marker, start: Point, end: Point, width: float, rgb: tuple[float, float, float]
+) -> None:
+    marker.type = Marker.ARROW
+    marker.points = [start, end]
+    marker.scale.x, marker.scale.y = width, 2.0 * width
+    marker.color = _colour(rgb, 1.0)
 
 
 def _fan(radius: float, low: float, high: float) -> list[Point]:

@@ -1,12 +1,10 @@
-"""How the estimator is: what it counted, as a status for ``/diagnostics``."""
+"""How an estimator is: what it counted, and what there is to say of it."""
 
 from __future__ import annotations
 
 import time
 from collections import Counter
 from enum import IntEnum
-
-from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 from ..physics import Equilibrium, Regime
 from ..tensions.reason import Reason
@@ -21,19 +19,12 @@ class Level(IntEnum):
     ERROR = 3
 
 
-_LEVELS = {
-    Level.OK: DiagnosticStatus.OK,
-    Level.WARN: DiagnosticStatus.WARN,
-    Level.STALE: DiagnosticStatus.STALE,
-    Level.ERROR: DiagnosticStatus.ERROR,
-}
-
-
 class Health:
     """Counts what happens, since the start and since the last periodic report.
 
-    Every message received is used in a pair that was solved, dropped for a reason, or, of a pair
-    of load cells, still waiting for its partner. Times are those of a steady clock, in s.
+    Every message received is used in a pair that was solved, dropped for a reason, or, of those
+    with one cable each, still waiting for its partner. What is about neither cable is none of
+    them. Times are those of a steady clock, in s.
 
     Parameters
     ----------
@@ -46,6 +37,7 @@ class Health:
         self.received = 0
         self.solved = 0
         self.lost = 0
+        self.foreign = 0
         self.dropped: Counter[Reason] = Counter()
         self.last_drop = ''
         self.stale = False
@@ -64,6 +56,8 @@ class Health:
         self._inconsistent = 0
         self._solve_time = self._longest_solve = 0.0
         self._longest_lag = 0.0
+        self._offset = 0.0
+        self._unassured_load = 0
         self._is_warned = False
         self._is_implausible = False
 
@@ -76,8 +70,10 @@ class Health:
             return Level.STALE
         return Level.WARN if self._is_warned else Level.OK
 
-    def note_result(self, result: Equilibrium, solve_time: float) -> None:
-        """Count a pair that was solved, in so many seconds."""
+    def note_result(
+        self, result: Equilibrium, solve_time: float, *, load_assured: bool = True
+    ) -> None:
+        """Count a pair that was solved, in so many seconds, with a load that is known or not."""
         self.solved += 1
         self.stale = False
         self._newest = time.monotonic()
@@ -86,6 +82,9 @@ class Health:
         self._longest_solve = max(self._longest_solve, solve_time)
         if not result.is_tracked and result.regime is Regime.HELD:
             self._held += 1
+            self._is_warned = True
+        if not load_assured:
+            self._unassured_load += 1
             self._is_warned = True
         if not result.angle_assured:
             self._unassured += 1
@@ -99,6 +98,12 @@ class Health:
         self._newest = time.monotonic() - lag
         if lag > most:
             self._longest_lag = max(self._longest_lag, lag)
+            self._is_warned = True
+
+    def note_offset(self, offset: float, most: float) -> None:
+        """Note by how many seconds a stamp is after the node's clock; up to `most` is good."""
+        if not abs(offset) <= most:
+            self._offset = max(self._offset, offset, key=abs)
             self._is_warned = True
 
     def note_drop(self, reason: Reason, text: str) -> None:
@@ -121,62 +126,36 @@ class Health:
         self._since = now
         self._forget_period()
 
-    def status(
-        self,
-        name: str,
-        hardware_id: str,
-        publishers: dict[str, int],
-        misfit: str = '',
-        note: str = '',
-    ) -> DiagnosticStatus:
-        """Say how the estimator is.
+    @property
+    def age(self) -> float | None:
+        """Age of the newest tensions in s; None if there are none yet."""
+        return None if self._newest is None else time.monotonic() - self._newest
 
-        Parameters
-        ----------
-        publishers : dict
-            Topic that tensions come on → number of its publishers.
-        misfit : str
-            Which publishers are not heard, and why.
-        note : str
-            In place of what there is to say, if there is one.
-        """
-        now = time.monotonic()
-        age = None if self._newest is None else now - self._newest
-        solved = self.solved - self._solved_before
-        findings = self._findings(solved, age)
-        level = Level.STALE if note else self.level
-        for topic, count in publishers.items():
-            if count > 1:
-                findings.append(f'{count} publishers on {topic}, one is expected')
-                level = max(level, Level.WARN)
-        if misfit:
-            findings.append(misfit)
-            level = max(level, Level.WARN)
-        if not findings:
-            findings = [self._regime or 'no tensions came yet']
-        values = {
+    @property
+    def regime(self) -> str:
+        """Regime of the newest tensions; empty if there are none yet."""
+        return self._regime
+
+    def values(self) -> dict[str, str]:
+        """What was counted and measured, by what it is."""
+        age, solved = self.age, self.solved - self._solved_before
+        return {
             'regime of newest tensions': self._regime,
             'age of newest tensions [s]': '' if age is None else f'{age:.3f}',
             'rate [Hz]': '' if self._rate is None else f'{self._rate:.1f}',
             'mean solve time [ms]': f'{self._solve_time / solved * 1e3:.3f}' if solved else '',
             'longest solve time [ms]': f'{self._longest_solve * 1e3:.3f}' if solved else '',
             'messages received': str(self.received),
+            'messages about neither cable': str(self.foreign),
             'pairs solved': str(self.solved),
             'messages lost on the way': str(self.lost) if self.counts_lost else 'not counted',
             **{f'dropped: {reason.value}': str(self.dropped[reason]) for reason in Reason},
             'last drop': self.last_drop,
-            **{f'publishers on {topic}': str(count) for topic, count in publishers.items()},
         }
-        return DiagnosticStatus(
-            level=_LEVELS[level],
-            name=name,
-            message=note or '; '.join(findings),
-            hardware_id=hardware_id,
-            values=[KeyValue(key=key, value=value) for key, value in values.items()],
-        )
 
-    def _findings(self, solved: int, age: float | None) -> list[str]:
+    def findings(self) -> list[str]:
         """What is not as it should be, the worst first."""
+        age, solved = self.age, self.solved - self._solved_before
         findings = []
         dropped = self.dropped - self._dropped_before
         if self._is_implausible:
@@ -194,6 +173,16 @@ class Health:
             findings.append(f'{self.lost - self._lost_before} messages lost on the way')
         if self._longest_lag > 0.0:
             findings.append(f'behind: tensions waited {self._longest_lag:.1f} s to be taken')
+        if self._offset:
+            findings.append(
+                f'stamps differ from the clock of the node by {self._offset:+.3g} s: clocks that '
+                'are not set alike, or messages that are old'
+            )
+        if self._unassured_load:
+            findings.append(
+                'the load is not assured: what says where gravity points, or the force on the '
+                f'tip, does not come ({self._unassured_load} of {solved})'
+            )
         if self._unassured:
             findings.append(
                 'the unit may have moved unseen, so that its angle is not assured '

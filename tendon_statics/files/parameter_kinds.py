@@ -1,0 +1,158 @@
+"""Kinds of parameters: what each means and what it may be. A table of them describes a node."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any
+
+from ..physics.errors import TendonStaticsError
+
+
+class SettingError(TendonStaticsError, ValueError):
+    """A parameter has a value that is not allowed; the text is for the user."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Parameter:
+    """A parameter of a node, of any kind."""
+
+    name: str
+    default: Any
+    description: str
+    is_fixed: bool = dataclasses.field(default=True, kw_only=True)
+    """Whether it can only be set at the start"""
+
+    @property
+    def allowed(self) -> str:
+        """What it may be, as a person reads it; empty if that is all of its type."""
+        return ''
+
+    def check(self, value: object) -> None:
+        """Raise a `SettingError` for a value that is not allowed."""
+        if type(value) is not type(self.default):
+            kind = {bool: 'true or false', str: 'a text'}[type(self.default)]
+            raise SettingError(f'{self.name} is {value!r}, but {kind} is needed')
+
+
+@dataclasses.dataclass(frozen=True)
+class SwitchParameter(Parameter):
+    """True or false."""
+
+    default: bool
+
+    @property
+    def allowed(self) -> str:
+        """True or false."""
+        return 'true or false'
+
+
+@dataclasses.dataclass(frozen=True)
+class TextParameter(Parameter):
+    """A text."""
+
+    default: str
+
+
+@dataclasses.dataclass(frozen=True)
+class ChoiceParameter(Parameter):
+    """One of a few texts."""
+
+    default: str
+    choices: tuple[str, ...] = dataclasses.field(kw_only=True)
+
+    @property
+    def allowed(self) -> str:
+        """The choices, with an ``or`` between them."""
+        return ' or '.join(self.choices)
+
+    def check(self, value: object) -> None:
+        """Raise a `SettingError` for any other value."""
+        if value not in self.choices:
+            raise SettingError(f'{self.name} is {value!r}, allowed is {self.allowed}')
+
+
+@dataclasses.dataclass(frozen=True)
+class NamePairParameter(Parameter):
+    """Two different names, of cables l and s."""
+
+    default: tuple[str, str]
+
+    @property
+    def allowed(self) -> str:
+        """Two names."""
+        return 'two different names'
+
+    def check(self, value: object) -> None:
+        """Raise a `SettingError` unless it is a sequence of two different names."""
+        names = list(value) if isinstance(value, (list, tuple)) else value
+        if not (
+            isinstance(names, list)
+            and len(names) == 2
+            and all(isinstance(name, str) and name for name in names)
+            and names[0] != names[1]
+        ):
+            raise SettingError(
+                f'{self.name} is {names!r}, two different names are needed, of cables l and s'
+            )
+
+
+@dataclasses.dataclass(frozen=True)
+class NumberParameter(Parameter):
+    """A number in a closed range; an integer if its default is one."""
+
+    default: float
+    minimum: float = dataclasses.field(kw_only=True)
+    maximum: float = dataclasses.field(kw_only=True)
+    unit: str = dataclasses.field(default='', kw_only=True)
+    is_fixed: bool = dataclasses.field(default=False, kw_only=True)
+
+    @property
+    def allowed(self) -> str:
+        """The range as a person reads it, say ``0 to 1000 N``."""
+        unit = f' {self.unit}' if self.unit else ''
+        return f'{self.minimum:.10g} to {self.maximum:.10g}{unit}'
+
+    def fixed(self) -> NumberParameter:
+        """Return the same for a node in which it can only be set at the start."""
+        return dataclasses.replace(self, is_fixed=True)
+
+    @property
+    def is_integer(self) -> bool:
+        """Whether it counts."""
+        return isinstance(self.default, int)
+
+    def check(self, value: object) -> None:
+        """Raise a `SettingError` for a value that is not allowed; NaN never is, nor is a bool."""
+        kinds, name = (int, 'an integer') if self.is_integer else ((int, float), 'a number')
+        if isinstance(value, bool) or not isinstance(value, kinds):
+            raise SettingError(
+                f'{self.name} is {value!r}, which is not {name}: allowed is {self.allowed}'
+            )
+        if not self.minimum <= value <= self.maximum:
+            raise SettingError(f'{self.name} is {value!r}, allowed is {self.allowed}')
+
+
+@dataclasses.dataclass(frozen=True)
+class VectorParameter(Parameter):
+    """Three finite numbers."""
+
+    default: tuple[float, float, float]
+    unit: str = dataclasses.field(default='', kw_only=True)
+    is_fixed: bool = dataclasses.field(default=False, kw_only=True)
+
+    @property
+    def allowed(self) -> str:
+        """Three numbers."""
+        return 'three finite numbers'
+
+    def check(self, value: object) -> None:
+        """Raise a `SettingError` unless it is a sequence of three finite numbers."""
+        # An array from ROS is no list; an empty one comes as None.
+        given = list(value) if hasattr(value, '__iter__') and not isinstance(value, str) else None
+        if (
+            given is None
+            or len(given) != 3
+            or not all(type(v) in (int, float) and math.isfinite(v) for v in given)
+        ):
+            raise SettingError(f'{self.name} is {value!r}, but {self.allowed} are needed')

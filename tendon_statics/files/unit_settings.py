@@ -1,0 +1,115 @@
+"""From the values of the estimator's parameters to what it computes with."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from difflib import get_close_matches
+from typing import Any
+
+from ..estimation.settings import Settings
+from ..physics.admissible import check_bend_angle
+from ..physics.design import JointDesign
+from ..physics.errors import BendAngleError, DesignError, LoadError
+from ..tensions.cable_scale import CableScale
+from ..tensions.watch import Plausibility
+from .estimator_parameters import DESIGN, ESTIMATOR_PARAMETERS, NUMBERS, VECTORS, known_names
+from .parameter_kinds import Parameter, SettingError
+
+
+def misspelt(names: Mapping[str, object]) -> list[str]:
+    """Say of each name that is close to a parameter's which is probably meant."""
+    known = sorted(known_names())
+    found = []
+    for name in names:
+        if name not in known and not name.startswith((DESIGN, 'qos_overrides.')):
+            close = get_close_matches(name, known, 1, cutoff=0.85)
+            if close:
+                found.append(f'{name} is no parameter of the estimator; is {close[0]} meant?')
+    return found
+
+
+def check_parameters(values: Mapping[str, object]) -> None:
+    """Check what is given of the estimator's parameters, one by one.
+
+    Raises
+    ------
+    SettingError
+        If a value is not allowed; the text names the parameter, its value and what is allowed.
+    """
+    for parameter in ESTIMATOR_PARAMETERS:
+        if parameter.name in values:
+            parameter.check(values[parameter.name])
+
+
+def settings_from(values: Mapping[str, Any]) -> Settings:
+    """Make settings of the values of parameters by name; what is not given has its default.
+
+    Foreign names are left alone.
+
+    Raises
+    ------
+    SettingError
+        If a value, or the whole, is not valid; the text names the parameter, its value and what
+        is allowed.
+    """
+    try:
+        design = JointDesign.from_mapping(
+            {
+                name.removeprefix(DESIGN): value
+                for name, value in values.items()
+                if name.startswith(DESIGN)
+            }
+        )
+    except DesignError as error:
+        raise SettingError(f'{DESIGN if error.key else ""}{error}') from None
+    check_parameters(values)
+
+    def given(parameter: Parameter) -> Any:
+        return values.get(parameter.name, parameter.default)
+
+    number = {parameter.name: given(parameter) for parameter in NUMBERS}
+    vector: dict[str, Any] = {
+        parameter.name: tuple(map(float, given(parameter))) for parameter in VECTORS
+    }
+    plain: dict[str, Any] = {
+        field.name: float(number[field.name])
+        for field in dataclasses.fields(Settings)
+        if field.name in number
+    }
+    try:
+        settings = Settings(
+            design=design,
+            cable_l=_cable_scale('cable_l', number),
+            cable_s=_cable_scale('cable_s', number),
+            plausibility=Plausibility(
+                float(number['max_tension_rate']),
+                number['saturation_count'],
+                number['frozen_count'],
+            ),
+            **vector,
+            **plain,
+        )
+        check_bend_angle(design, settings.initial_bend_angle)
+        _ = settings.load
+    except BendAngleError as error:
+        raise SettingError(f'initial_{error}') from None
+    except LoadError as error:
+        raise SettingError(str(error)) from None
+    return settings
+
+
+def _cable_scale(cable: str, number: Mapping[str, float]) -> CableScale:
+    """Make a cable's scale.
+
+    Raises
+    ------
+    SettingError
+        If its gain is 0.
+    """
+    scale = CableScale(**{name: float(number[f'{cable}.{name}']) for name in CableScale._fields})
+    if scale.gain == 0.0:
+        raise SettingError(
+            f'{cable}.gain is 0.0, with which the tension does not follow what is measured'
+        )
+    return scale

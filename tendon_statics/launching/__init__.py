@@ -1,0 +1,1 @@
+"""What the launch files need: rigs, names, descriptions of units, actions."""

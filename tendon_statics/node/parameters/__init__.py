@@ -1,0 +1,1 @@
+"""Parameters of a table, declared on a ROS node and read from it."""

@@ -1,0 +1,107 @@
+"""The estimator's parameters on its node: declared at the start, read whenever they change."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache
+from typing import Any, NamedTuple
+
+from rclpy.node import Node
+
+from ...estimation.settings import Settings
+from ...files.design_file import default_design_path, load_design
+from ...files.estimator_parameters import DESIGN, NUMBERS, VECTORS, WIRING, design_table
+from ...files.parameter_kinds import Parameter, SettingError
+from ...files.unit_settings import settings_from
+from ...physics import DesignError, JointDesign, design_fields
+from .declaration import declare_all, read_all
+
+
+class Wiring(NamedTuple):
+    """What is fixed while the node runs; the fields are the names of the parameters."""
+
+    tension_source: str
+    cable_names: tuple[str, str]
+    wrench_component: str
+    estimation: str
+    gravity_source: str
+    tip_wrench: bool
+    frame_id: str
+    joint_name: str
+    markers: bool
+    executor: str
+    autostart: bool
+
+
+def declare_wiring(node: Node) -> Wiring:
+    """Declare what is fixed and return what it is set to.
+
+    Raises
+    ------
+    SettingError
+        If a value is not allowed.
+    """
+    return Wiring(**declare_all(node, WIRING))
+
+
+def declare_settings(node: Node) -> set[str]:
+    """Declare what may change; `read_settings` has what it is set to.
+
+    Returned are the names of those of the design that were not given.
+
+    Design parameters that are left out come from the installed preliminary design, with a warning
+    if only a part is given. Values that are not allowed are kept, for `read_settings` to refuse.
+
+    Raises
+    ------
+    SettingError
+        If there is no design parameter of a name that was given.
+    """
+    default = load_design(default_design_path())
+    # rclpy has no public view of overrides that nobody declares; a misspelt key would be ignored.
+    overrides = node._parameter_overrides
+    if DESIGN[:-1] in overrides:
+        value = overrides[DESIGN[:-1]].value
+        raise SettingError(f'design is {value!r}, but its parameters have names: {DESIGN}mass')
+    given = [name.removeprefix(DESIGN) for name in overrides if name.startswith(DESIGN)]
+    known = {field.name for field in design_fields()}
+    for name in given:
+        if name not in known:
+            try:
+                JointDesign.from_mapping({name: overrides[DESIGN + name].value})
+            except DesignError as error:
+                raise SettingError(f'{DESIGN}{error}') from None
+    left_out = [
+        field.name
+        for field in design_fields()
+        if field.name not in given and field.default is None
+    ]
+    if not given:
+        node.get_logger().warning(
+            "No design.* parameters came, so this is the paper's preliminary design, two values "
+            'of which are identified, not measured'
+        )
+    elif left_out:
+        node.get_logger().warning(
+            'The parameters give a part of the design only; taken from the preliminary design: '
+            + ', '.join(f'{DESIGN}{name} = {getattr(default, name)!r}' for name in left_out)
+        )
+    declare_all(node, _changeable())
+    return {DESIGN + name for name in left_out}
+
+
+def read_settings(node: Node, changes: Iterable[Any] = ()) -> Settings:
+    """Return what the parameters of a node are set to, with these ROS parameters changed.
+
+    Raises
+    ------
+    SettingError
+        If the whole is not valid.
+    """
+    return settings_from(read_all(node, _changeable(), changes))
+
+
+@cache
+def _changeable() -> tuple[Parameter, ...]:
+    """All that may be set again."""
+    return (*design_table(load_design(default_design_path())), *NUMBERS, *VECTORS)

@@ -1,0 +1,106 @@
+"""Recordings whose samples cannot vouch for a tracked unit: replay says what the node would."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from designs import PRELIMINARY
+from programs import run
+
+from tendon_statics import Recording
+from tendon_statics.estimation.settings import Settings
+from tendon_statics.estimation.unit_estimator import KnownLoad, UnitEstimator
+from tendon_statics.physics import UPRIGHT, Load
+from tendon_statics.recordings.replay.estimates import replay
+from tendon_statics.tensions.cable_scale import CableScale
+from tendon_statics.tensions.reason import ReadingError
+from tendon_statics.tensions.watch import Plausibility
+
+SETTINGS = Settings(PRELIMINARY)
+NAN = math.nan
+CASES = {
+    'slack but for noise': ([0.0, 0.1, 0.2, 0.3], [1, 0.01, 0.01, 1], [1, 0.01, 0.01, 1]),
+    'a little below 0': ([0.0, 0.1, 0.2, 0.3], [1, -0.01, 0.5, 1], [1, 1, -0.02, 1]),
+    'drive off': ([0.0, 0.1, 0.2, 0.3], [1, NAN, NAN, 1], [1, NAN, NAN, 1]),
+    'an hour without': ([0.0, 3600.0], [1, 1], [1, 1]),
+}
+
+
+def tracked(time, tension_l, tension_s, settings=SETTINGS, **options):
+    recording = Recording(tension_l=tension_l, tension_s=tension_s, time=time)
+    return replay(PRELIMINARY, recording, 'tracking', settings=settings, **options)
+
+
+@pytest.mark.parametrize('case', CASES)
+def test_its_angle_is_not_assured_any_more(case):
+    found = tracked(*CASES[case])
+    assert found.angle_assured[0]
+    assert not found.angle_assured[1:].any()
+    assert found.bend_angle[-1] == 0.0
+
+
+@pytest.mark.parametrize('case', CASES)
+def test_node_and_replay_say_the_same(case):
+    """The node's estimator, fed with the same samples at the same times."""
+    unit, expected = UnitEstimator(SETTINGS, 'tracking'), []
+    for time, *tensions in zip(*CASES[case], strict=True):
+        try:
+            result = unit.take(*tensions, KnownLoad(UPRIGHT), time, time)
+        except ReadingError as error:
+            expected.append(('invalid', error.reason.value, False))
+        else:
+            expected.append((result.regime.value, 'valid', result.angle_assured))
+    found = tracked(*CASES[case])
+    columns = (found.regime.tolist(), found.validity.tolist(), found.angle_assured.tolist())
+    assert list(zip(*columns, strict=True)) == expected
+
+
+def test_one_spike_puts_a_unit_at_its_stop_unless_it_is_known_to_be_wrong():
+    time, tension_l, tension_s = [0.0, 0.1, 0.2, 0.3], [1.0] * 4, [1.5, 4.194, 1.5, 1.5]
+    believed = tracked(time, tension_l, tension_s)
+    assert believed.bend_angle[-1] == PRELIMINARY.max_bend_angle
+    cable = CableScale(max_tension=3.0)
+    for settings, reason in (
+        (dataclasses.replace(SETTINGS, plausibility=Plausibility(max_rate=10.0)), 'too fast'),
+        (dataclasses.replace(SETTINGS, cable_l=cable, cable_s=cable), 'implausible'),
+    ):
+        found = tracked(time, tension_l, tension_s, settings)
+        if reason == 'too fast':
+            assert found.validity.tolist() == ['valid', reason, 'valid', 'valid']
+            assert found.bend_angle[-1] == 0.0
+            assert found.angle_assured.tolist() == [True, False, False, False]
+        alone = replay(
+            PRELIMINARY,
+            Recording(tension_l=tension_l, tension_s=tension_s, time=time),
+            settings=settings,
+        )
+        if reason == 'too fast':
+            assert alone.regime.tolist() == ['held', 'invalid', 'held', 'held']
+
+
+def test_a_unit_s_file_says_what_is_believed(tmp_path):
+    data, unit = tmp_path / 'spike.csv', tmp_path / 'unit.yaml'
+    data.write_text('time,tension_l,tension_s\n0,1,1.5\n0.1,1,4.194\n0.2,1,1.5\n')
+    design = dataclasses.asdict(PRELIMINARY)
+    lines = ''.join(f'      {name}: {value}\n' for name, value in design.items())
+    for line, reason in (
+        ('max_tension_rate: 10.0', 'too fast'),
+        ('cable_s.max_tension: 3.0', 'implausible'),
+    ):
+        unit.write_text(f'/**:\n  ros__parameters:\n    {line}\n    design:\n{lines}')
+        done = run('replay', data, '--design', unit, '--estimation', 'tracking')
+        assert done.returncode == 0, done.stderr
+        assert f'invalid       {reason} 1\n' in done.stdout
+        followed = run('track', data, '--design', unit).stdout.splitlines()
+        assert followed[-1].split(',')[3] == '0.0'
+        assert followed[-1].endswith(',False')
+
+
+def test_the_load_of_the_unit_is_that_of_its_settings_unless_another_is_given():
+    tilt = math.radians(10.0)
+    settings = dataclasses.replace(SETTINGS, gravity_direction=Load.tilted(tilt).gravity_direction)
+    recording = Recording(tension_l=[1.0], tension_s=[2.0])
+    for load, degrees in ((None, 7.140), (UPRIGHT, 17.140)):
+        found = replay(PRELIMINARY, recording, settings=settings, load=load)
+        assert np.degrees(found.bend_angle[0]) == pytest.approx(degrees, abs=5e-4)
