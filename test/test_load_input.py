@@ -6,7 +6,6 @@ import pytest
 from designs import PRELIMINARY
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, Quaternion, Vector3, Wrench, WrenchStamped
-from rcl_interfaces.msg import ParameterType, ParameterValue
 from ros_programs import wait_for
 from sensor_msgs.msg import Imu
 from std_msgs.msg import Header
@@ -97,16 +96,10 @@ def test_ten_degrees_by_parameter(listener):
         assert inverse.tension_s == pytest.approx(2.0, abs=1e-3)
         # It may change, and has to be a direction.
         for value, named in (([0, 0, 0], 'length zero'), ([1, 2], 'three finite numbers')):
-            given = ParameterValue(
-                type=ParameterType.PARAMETER_INTEGER_ARRAY, integer_array_value=value
-            )
-            result = listener.set_estimator_parameters(gravity_direction=given)
+            result = listener.set_estimator_parameters(gravity_direction=value)
             assert not result.successful
             assert named in result.reason
-        up = ParameterValue(
-            type=ParameterType.PARAMETER_INTEGER_ARRAY, integer_array_value=[0, 0, -1]
-        )
-        assert listener.set_estimator_parameters(gravity_direction=up).successful
+        assert listener.set_estimator_parameters(gravity_direction=[0, 0, -1]).successful
         listener.answer(*SLIPPING)
         assert math.degrees(listener.newest_estimate().bend_angle) == pytest.approx(
             17.14, abs=1e-5

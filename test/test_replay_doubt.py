@@ -92,9 +92,19 @@ def test_a_unit_s_file_says_what_is_believed(tmp_path):
         done = run('replay', data, '--design', unit, '--estimation', 'tracking')
         assert done.returncode == 0, done.stderr
         assert f'invalid       {reason} 1\n' in done.stdout
+        assert ('what is too fast is not believed' in done.stdout) == (reason == 'too fast')
         followed = run('track', data, '--design', unit).stdout.splitlines()
         assert followed[-1].split(',')[3] == '0.0'
         assert followed[-1].endswith(',False')
+
+
+def test_a_rate_that_cannot_be_checked_is_said(tmp_path):
+    data, unit = tmp_path / 'spike.csv', tmp_path / 'unit.yaml'
+    data.write_text('tension_l,tension_s\n1.0,1.5\n1.0,4.194\n1.0,1.5\n')
+    lines = ''.join(f'      {name}: {v}\n' for name, v in dataclasses.asdict(PRELIMINARY).items())
+    unit.write_text(f'/**:\n  ros__parameters:\n    max_tension_rate: 1.0\n    design:\n{lines}')
+    said = run('replay', data, '--design', unit, '--estimation', 'tracking').stdout
+    assert 'max_tension_rate of the design file is not checked: there are no times' in said
 
 
 def test_the_load_of_the_unit_is_that_of_its_settings_unless_another_is_given():

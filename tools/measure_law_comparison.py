@@ -25,6 +25,9 @@ from tendon_statics import CalibrationError
 from tendon_statics.physics.calibration.comparison import compare_laws
 
 SIXTY = math.radians(60.0)
+FRICTIONS = (0.7, 1.3)
+"""Shares of the unit's friction coefficient between which that of a session lies"""
+
 ALL = ('mass', 'cable_offset', 'friction_coefficient')
 
 
@@ -94,13 +97,15 @@ class Job(NamedTuple):
 def outcome(job: Job) -> tuple[str, bool]:
     """Return what the comparison says, ``right``, ``wrong`` or ``open``, and if truth is out."""
     condition = CONDITIONS[job.condition]
+    rng = np.random.default_rng((job.seed, job.condition, LAWS.index(job.law)))
     truth = unit_of(job.law, **condition.changes)
+    friction = truth.friction_coefficient * rng.uniform(*FRICTIONS)
+    truth = dataclasses.replace(truth, friction_coefficient=friction)
     plan = condition.plan
     noisy = plan._replace(
         tension_stddev=condition.noise * plan.tension_stddev,
         bend_angle_stddev=condition.noise * plan.bend_angle_stddev,
     )
-    rng = np.random.default_rng((job.seed, job.condition, LAWS.index(job.law)))
     recording, pressure_stddev = session_of(truth, noisy, rng)
     known: dict[str, Any] = {name: getattr(truth, name) for name in condition.known}
     start = dataclasses.replace(PRELIMINARY, **condition.changes, **known)

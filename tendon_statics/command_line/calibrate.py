@@ -111,9 +111,10 @@ def cell_parameters(calibration: Calibration, unit: Unit) -> dict[str, float]:
         ('cable_l', unit.cable_l, cells.gain_l, cells.bias_l),
         ('cable_s', unit.cable_s, cells.gain_s, cells.bias_s),
     ):
-        if (gain, bias) != (1.0, 0.0):
-            found[f'{cable}.gain'] = gain * scale.gain
-            found[f'{cable}.bias'] = gain * scale.bias + bias
+        together = {'gain': gain * scale.gain, 'bias': gain * scale.bias + bias}
+        for name, value in together.items():
+            if value != getattr(scale, name):
+                found[f'{cable}.{name}'] = value
     return found
 
 

@@ -14,7 +14,7 @@ from ..recordings.errors import RecordingError
 from ..recordings.hints import hints
 from ..recordings.motion import mark_motion
 from ..recordings.recording import Recording
-from ..recordings.scaling import usable
+from ..recordings.samples import usable
 from ..recordings.sessions import follow_each_other
 from .options import (
     UsageError,
@@ -130,7 +130,7 @@ def calibration_from(options: argparse.Namespace, unit: Unit, recording: Recordi
     try:
         asked: dict[str, Any] = {
             'design': unit.design,
-            'data': states_from(options, usable(recording)),
+            'data': states_from(options, usable(recording, unit.settings)),
             'fit': [name.strip() for name in options.fit.split(',') if name.strip()],
             'tension_stddev': tension_stddev_from(options, unit),
             'bend_angle_stddev': math.radians(options.bend_angle_stddev_deg),

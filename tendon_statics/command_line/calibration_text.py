@@ -82,7 +82,10 @@ def law_rows(comparison: LawComparison) -> list[tuple[str, ...]]:
 
 def law_facts(comparison: LawComparison) -> Facts:
     """What the data say of the laws, and what would say more."""
-    advice = [('would tell', one.text) for one in comparison.advice]
+    advice = [
+        ('would tell', f'{one.text}; a difference of {one.difference:.3g} on average')
+        for one in comparison.advice
+    ]
     return [('contact law', comparison.statement), *advice]
 
 

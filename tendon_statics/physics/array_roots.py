@@ -27,17 +27,19 @@ Flags = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 
 
+Lines = list[Floats]
+"""A probe of many rows: an array for each thing that is known of them, the first three being
+place, value and slope, as in `roots`"""
+
+
 class ArrayFunction(Protocol):
-    """Functions of one variable, one a row; a probe has a line for each thing it knows of them.
+    """Functions of one variable, one a row."""
 
-    The first three are place, value and slope, as in `roots`.
-    """
-
-    def probe(self, rows: Indices | slice, places: Floats | float) -> Floats:
+    def probe(self, rows: Indices | slice, places: Floats | float) -> Lines:
         """Look at the functions of some rows, each at a place of its own, or all at one."""
 
     def slope_bounds(
-        self, rows: Indices | slice, one: Floats, other: Floats
+        self, rows: Indices | slice, one: Lines, other: Lines
     ) -> tuple[Floats, Floats]:
         """Return bounds of the slopes between two probes."""
 
@@ -70,18 +72,22 @@ def array_brackets(function: ArrayFunction, count: int, low: float, high: float)
         (still,) = np.nonzero(~settled & _may_vanish(left, right, least, greatest))
         at = crossing if cut == 0 else rows[crossing]
         np.add.at(roots, at, 1)
-        np.minimum.at(lows[0], at, left[0, crossing])
-        nearest = lows[0, at] == left[0, crossing]
+        np.minimum.at(lows[0], at, left[0][crossing])
+        nearest = lows[0, at] == left[0][crossing]
         at, crossing = at[nearest], crossing[nearest]
-        lows[:, at], highs[:, at] = left[:3, crossing], right[:3, crossing]
+        for ends, end in ((lows, left), (highs, right)):
+            for line, values in zip(ends, end, strict=False):
+                line[at] = values[crossing]
         rows = still if cut == 0 else rows[still]
         if not len(rows) or cut == CUTS:
             break
-        left, right = left[:, still], right[:, still]
+        left, right = [line[still] for line in left], [line[still] for line in right]
         middle = function.probe(rows, 0.5 * (left[0] + right[0]))
         rows = np.concatenate([rows, rows])
-        left = np.concatenate([left, middle], axis=1)
-        right = np.concatenate([middle, right], axis=1)
+        left, right = (
+            [np.concatenate(lines) for lines in zip(left, middle, strict=True)],
+            [np.concatenate(lines) for lines in zip(middle, right, strict=True)],
+        )
     unresolved[rows] = True
     return Brackets(roots, lows, highs, at_low, unresolved)
 
@@ -94,7 +100,7 @@ class Roots(NamedTuple):
     unresolved: Flags
 
 
-def array_refine(function: ArrayFunction, low: Floats, high: Floats) -> Roots:
+def array_refine(function: ArrayFunction, low: Lines, high: Lines) -> Roots:
     """Find the root in the bracket of each row, and prove it as `roots.refine` does.
 
     The same steps come close. Then the function must change sign over a bracket as narrow as that
@@ -111,7 +117,7 @@ def array_refine(function: ArrayFunction, low: Floats, high: Floats) -> Roots:
 
 
 def _approach(
-    function: ArrayFunction, low: Floats, high: Floats
+    function: ArrayFunction, low: Lines, high: Lines
 ) -> tuple[Floats, NDArray[np.int64]]:
     """Return a place near the root in each bracket, and the steps taken."""
     rows: Any = slice(None)
@@ -120,9 +126,10 @@ def _approach(
     for _ in range(STEPS):
         inside = (ahead >= low[0]) & (ahead <= high[0])
         place = np.where(inside, ahead, 0.5 * (low[0] + high[0]))
-        probe = function.probe(rows, place)[:3]
+        probe = function.probe(rows, place)
         below = (probe[1] < 0.0) == (low[1] < high[1])
-        low, high = np.where(below, probe, low), np.where(below, high, probe)
+        low = [np.where(below, new, old) for new, old in zip(probe[:3], low, strict=True)]
+        high = [np.where(below, old, new) for new, old in zip(probe[:3], high, strict=True)]
         ahead = cubic_zero(low, high)
         near[rows] = ahead
         steps[rows] += 1
@@ -130,7 +137,8 @@ def _approach(
         if not len(moving):
             break
         rows = moving if isinstance(rows, slice) else rows[moving]
-        low, high, ahead = low[:, moving], high[:, moving], ahead[moving]
+        low, high = [line[moving] for line in low], [line[moving] for line in high]
+        ahead = ahead[moving]
     return near, steps
 
 
@@ -140,7 +148,7 @@ def _change_sign(before: Floats, after: Floats) -> Flags:
     return flags
 
 
-def _may_vanish(left: Floats, right: Floats, least: Any, greatest: Any) -> Flags:
+def _may_vanish(left: Lines, right: Lines, least: Any, greatest: Any) -> Flags:
     """Whether functions with slopes within these bounds, of both signs, can have a zero."""
     at_left, at_right, width = left[1], right[1], right[0] - left[0]
     sign = np.sign(at_left)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .array_numbers import ARRAYS
-from .array_roots import Floats, array_brackets, array_refine
+from .array_roots import Floats, Lines, array_brackets, array_refine
 from .design import JointDesign
 from .errors import LoadError, TensionError
 from .forces import ContactForces, ForceRemainder, contact_forces
@@ -131,7 +131,8 @@ class EquilibriumBatch:
                 state, limit = point.state, point.capacity
                 normal = slip.law.normal(state, limit)
                 forces, remainder = contact_forces(slip, point, limit, normal)
-                rows[:, at] = (*forces, *remainder)
+                for row, values in zip(rows, (*forces, *remainder), strict=True):
+                    row[at] = values
                 flags[at] = slip.law.consistent(state, limit)
         return ContactForces(*numbers[:4]), ForceRemainder(*numbers[4:]), consistent
 
@@ -143,7 +144,9 @@ class EquilibriumBatch:
         with np.errstate(all='ignore'):
             for at, slip, point in self._points():
                 at_stop = regimes[at] == REGIME_CODES[Regime.DRIVEN_TO_STOP]
-                rows[:, at] = _gradients_of(self.design, slip, point, at_stop)
+                gradients = _gradients_of(self.design, slip, point, at_stop)
+                for row, values in zip(rows, gradients, strict=True):
+                    row[at] = values
         return TensionGradient(*numbers[:2]), TensionGradient(*numbers[2:])
 
     def _points(self) -> Iterator[tuple[NDArray[np.intp], Slip, SlipPoint]]:
@@ -316,15 +319,13 @@ class _Rows:
         """Return the slip functions of some of the pairs."""
         return self.slip if isinstance(rows, slice) else self.slip.part(rows)
 
-    def probe(self, rows: Any, places: Floats | float) -> Floats:
+    def probe(self, rows: Any, places: Floats | float) -> Lines:
         slip = self.of(rows)
         *known, state = slip.probe(places)
-        lines = np.empty((len(known) + len(state), len(slip.total)))
-        for line, values in zip(lines, (*known, *state), strict=True):
-            line[:] = values
-        return lines
+        shape = slip.total.shape
+        return [np.broadcast_to(line, shape) for line in (*known, *state)]
 
-    def slope_bounds(self, rows: Any, one: Floats, other: Floats) -> tuple[Floats, Floats]:
+    def slope_bounds(self, rows: Any, one: Lines, other: Lines) -> tuple[Floats, Floats]:
         return self.of(rows).slope_bounds(*((*ends[:8], tuple(ends[8:])) for ends in (one, other)))
 
 
@@ -362,7 +363,7 @@ def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
     (rooted,) = np.nonzero(counts)
     chunk.regime[taut[rooted]] = REGIME_CODES[Regime.EQUILIBRIUM]
     slip = rows.slip.part(rooted)
-    roots = array_refine(_Rows(slip), found.low[:, rooted], found.high[:, rooted])
+    roots = array_refine(_Rows(slip), *(list(ends[:, rooted]) for ends in (found.low, found.high)))
     point = _fill(chunk, taut[rooted], slip, roots.places)
     chunk.stable[taut[rooted]] = point.slope < 0.0
     chunk.iterations[taut[rooted]] = roots.steps

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..physics.calibration.load_cells import AS_MEASURED, LoadCells
 from ..tensions.cable_scale import scaled_arrays
 from ..tensions.reason import Reason
-from .recording import Floats, Recording
+from .recording import Recording
 
 if TYPE_CHECKING:
     from ..files.unit_file import Unit
@@ -42,7 +42,7 @@ def of_unit(recording: Recording, unit: Unit) -> Recording:
         readings=(recording.tension_l, recording.tension_s) if applies else None,
         in_newtons=True,
         faults=faults,
-        notes=(*recording.notes, *_said(unit, applies)),
+        notes=(*recording.notes, *_said(unit, recording, applies)),
     )
 
 
@@ -59,23 +59,6 @@ def worse_reasons(
     return np.where((words_l == implausible) | (words_s == implausible), implausible, first)
 
 
-def usable(recording: Recording) -> Recording:
-    """Return the recording with NaN for the tensions of every sample that has a fault.
-
-    What a slack cable reads below 0 becomes 0.
-    """
-    faulty = np.array([bool(fault) for fault in recording.known_faults])
-
-    def without(values: Floats) -> Floats:
-        return np.where(faulty, np.nan, np.where(values < 0.0, 0.0, values))
-
-    return dataclasses.replace(
-        recording,
-        tension_l=without(recording.tension_l),
-        tension_s=without(recording.tension_s),
-    )
-
-
 def corrected(recording: Recording, cells: LoadCells) -> Recording:
     """Return the recording with the tensions that fitted load cells make of it."""
     if cells == AS_MEASURED:
@@ -84,7 +67,7 @@ def corrected(recording: Recording, cells: LoadCells) -> Recording:
     return dataclasses.replace(recording, tension_l=tension_l, tension_s=tension_s)
 
 
-def _said(unit: Unit, applies: bool) -> list[str]:
+def _said(unit: Unit, recording: Recording, applies: bool) -> list[str]:
     """Say what of the unit's file was applied, and what was not."""
     scales = {'cable_l': unit.cable_l, 'cable_s': unit.cable_s}
     given = [name for name in scales if not scales[name].is_identity]
@@ -106,4 +89,15 @@ def _said(unit: Unit, applies: bool) -> list[str]:
             + ', '.join(f'{limit:g} N ({name})' for name, limit in largest.items())
             + ' are implausible, by the design file'
         )
+    believed = unit.settings.plausibility
+    if believed.max_rate > 0.0 and recording.time is None:
+        found.append('max_tension_rate of the design file is not checked: there are no times')
+    elif believed.is_checked:
+        checks = {
+            'too fast': believed.max_rate,
+            'saturated': believed.saturation_count,
+            'frozen': believed.frozen_count,
+        }
+        named = ' or '.join(name for name, limit in checks.items() if limit)
+        found.append(f'what is {named} is not believed, by the design file')
     return found

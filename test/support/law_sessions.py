@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import NamedTuple
 
@@ -119,8 +120,6 @@ LAW_TRUTHS = {
 
 def unit_of(law: str, **changes: float) -> JointDesign:
     """A unit that is not what its drawing, the preliminary design, says."""
-    import dataclasses
-
     return dataclasses.replace(
         PRELIMINARY,
         contact_law=law,

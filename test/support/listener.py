@@ -46,6 +46,7 @@ class Listener(EstimatorClient):
         'solve_inverse': SolveInverse,
         'solve_latest': Trigger,
         'reset': Trigger,
+        'tare': Trigger,
         'change_state': ChangeState,
         'get_state': GetState,
         'get_parameters': GetParameters,

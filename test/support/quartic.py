@@ -93,6 +93,13 @@ def _solve(design: JointDesign, weak: mp.mpf, strong: mp.mpf) -> Solution:
             normal = moment(theta)
             if normal > 0 and linear(theta) - (1 - mu**2) * normal > 0:
                 found.append(theta)
+    # Two that all but merge, whether on the range or beside it, real or not: between them the
+    # equation is flat, so that the rounding of a double moves them by more than is tested.
+    merging = mp.mpf(10) ** -6
+    doubtful |= any(
+        abs(a - b) < merging and -merging < 2 * mp.atan(mp.re(a)) < stop + merging
+        for a, b in itertools.combinations(parameters, 2)
+    )
     found.sort()
     doubtful |= any(b - a < tolerance for a, b in itertools.pairwise(found))
     if found:

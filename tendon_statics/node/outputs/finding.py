@@ -12,7 +12,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray, Header, String
 
 from ...estimation.settings import Settings
-from ...physics import Equilibrium, Regime, admissible_angles
+from ...physics import Equilibrium, Regime
 from . import messages
 
 
@@ -49,10 +49,7 @@ class Finding:
     @cached_property
     def admissible_angles(self) -> list[tuple[float, float]]:
         """Intervals in which friction can hold the unit; none while a cable is slack."""
-        result = self.result
-        if result.regime is Regime.SLACK:
-            return []
-        return admissible_angles(self.design, result.tension_l, result.tension_s, result.load)
+        return self.result.admissible_angles
 
 
 Fill = Callable[[Any, Finding], bool]

@@ -127,9 +127,11 @@ def _doubts(
     width = parameter.maximum - parameter.minimum
     for end in ends:
         if abs(fitted.value - end) < 1e-9 * width:
+            asked = 'the data ask for a value beyond it'
+            if parameter.name == 'stiffness' and end == 0.0:
+                asked = 'the data show no backbone, so fit without it'
             found.append(
-                f'{parameter.name} is at the end of its range, {end:.6g} {parameter.unit}: '
-                'the data ask for a value beyond it'
+                f'{parameter.name} is at the end of its range, {end:.6g} {parameter.unit}: {asked}'
             )
     error = fitted.standard_error
     if fitted.name in BIASES:  # of which 0 is a value like any other

@@ -15,14 +15,11 @@ from ...estimation.unit_estimator import KnownLoad, UnitEstimator
 from ...physics import Equilibrium, JointDesign, Load, TensionError
 from ...physics.admissible import check_bend_angle
 from ...physics.batch import solve_batch
-from ...physics.tensions import MAX_TENSION
-from ...tensions.cable_scale import scaled_arrays
 from ...tensions.reason import ReadingError, Reason
-from ...tensions.watch import PairWatch
 from ..progress import Progress, unseen
 from ..reading.columns import READINGS
 from ..recording import OF_LOAD, Floats, Recording
-from ..scaling import worse_reasons
+from ..samples import Samples
 
 CHUNK = 20_000
 """Samples solved at once, after which progress is shown"""
@@ -138,7 +135,7 @@ def replay(
     settings = dataclasses.replace(
         settings, design=design, tension_stddev=stddev, initial_bend_angle=angle
     )
-    samples = _Samples(recording, settings)
+    samples = Samples(recording, settings)
     loads = recording.loads(load)
     starts = progress(range(0, len(recording), CHUNK), 'solving')
     if estimation == 'equilibrium':
@@ -169,68 +166,17 @@ def replay(
     )
 
 
-class _Samples:
-    """Samples as the estimator takes them, one after the other."""
-
-    def __init__(self, recording: Recording, settings: Settings) -> None:
-        self.settings = settings
-        self.tensions = recording.tensions()
-        self.times = _times(recording)
-        self.faults = _faults(recording, settings)
-        """Why each is no pair of tensions, in the node's words; more may be found later on"""
-        self.watch = PairWatch()
-
-    def part(self, start: int) -> range:
-        """Return the places of those that are solved at once."""
-        return range(start, min(start + CHUNK, len(self.tensions)))
-
-    def judged(self, place: int) -> tuple[float, float]:
-        """Return the tensions of a sample, 0 of a slack cable, NaN if it is not plausible."""
-        if not self.faults[place]:
-            try:
-                return self.watch.take(
-                    self.tensions[place],
-                    self.times[place][1],
-                    self.settings.scales,
-                    self.settings.plausibility,
-                )
-            except ReadingError as error:
-                self.faults[place] = error.reason.value
-        return math.nan, math.nan
-
-
-def _times(recording: Recording) -> list[tuple[float, float]]:
-    """The time of each sample in s twice: for gaps, where one without is at that before, as is."""
-    if recording.time is None:
-        return [(0.0, math.nan)] * len(recording)
-    measured = recording.time.tolist()
-    present, now = [], 0.0
-    for time in measured:
-        now = now if math.isnan(time) else time
-        present.append(now)
-    return list(zip(present, measured, strict=True))
-
-
-def _faults(recording: Recording, settings: Settings) -> list[str]:
-    """Why each sample is no pair of tensions, as far as that is seen of it alone."""
-    found = worse_reasons(
-        *(
-            scaled_arrays(of, scale._replace(gain=1.0, bias=0.0, max_tension=MAX_TENSION))[1]
-            for of, scale in zip(
-                (recording.tension_l, recording.tension_s), settings.scales, strict=True
-            )
-        )
-    )
-    known = recording.known_faults
-    return [before or now for before, now in zip(known, found.tolist(), strict=True)]
+def _part(samples: Samples, start: int) -> range:
+    """Return the places of those that are solved at once."""
+    return range(start, min(start + CHUNK, len(samples.tensions)))
 
 
 _Part = tuple[NDArray[np.str_], Floats, NDArray[np.bool_]]
 """Regimes, the five numbers of each sample in rows, and whether the angle is assured"""
 
 
-def _solved(samples: _Samples, loads: Load | list[Load], start: int) -> _Part:
-    settings, part = samples.settings, samples.part(start)
+def _solved(samples: Samples, loads: Load | list[Load], start: int) -> _Part:
+    settings, part = samples.settings, _part(samples, start)
     pairs = np.array([samples.judged(place) for place in part])
     tension_l, tension_s = pairs.reshape(-1, 2).T
     of_part = loads if isinstance(loads, Load) else loads[part.start : part.stop]
@@ -247,12 +193,10 @@ def _solved(samples: _Samples, loads: Load | list[Load], start: int) -> _Part:
     return answers.regime_names, numbers, np.full(answers.regime.shape, True)
 
 
-def _tracked(
-    unit: UnitEstimator, samples: _Samples, loads: Load | list[Load], start: int
-) -> _Part:
+def _tracked(unit: UnitEstimator, samples: Samples, loads: Load | list[Load], start: int) -> _Part:
     regimes, rows, assured = [], [], []
     stddev = samples.settings.tension_stddev
-    for place in samples.part(start):
+    for place in _part(samples, start):
         known = KnownLoad(loads if isinstance(loads, Load) else loads[place])
         now, measured = samples.times[place]
         fault = samples.faults[place]

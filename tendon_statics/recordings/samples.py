@@ -1,0 +1,82 @@
+"""Samples as the estimator takes them: which are believed, and which cables are slack."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+
+from ..estimation.settings import Settings
+from ..physics.tensions import MAX_TENSION
+from ..tensions.cable_scale import scaled_arrays
+from ..tensions.reason import ReadingError
+from ..tensions.watch import PairWatch
+from .recording import Recording
+from .scaling import worse_reasons
+
+
+class Samples:
+    """Samples as the estimator takes them, one after the other."""
+
+    def __init__(self, recording: Recording, settings: Settings) -> None:
+        self.settings = settings
+        self.tensions = recording.tensions()
+        self.times = _times(recording)
+        self.faults = _faults(recording, settings)
+        """Why each is no pair of tensions, in the node's words; more may be found later on"""
+        self.watch = PairWatch()
+
+    def judged(self, place: int) -> tuple[float, float]:
+        """Return the tensions of a sample, 0 of a slack cable, NaN if it is not plausible."""
+        if not self.faults[place]:
+            try:
+                return self.watch.take(
+                    self.tensions[place],
+                    self.times[place][1],
+                    self.settings.scales,
+                    self.settings.plausibility,
+                )
+            except ReadingError as error:
+                self.faults[place] = error.reason.value
+        return math.nan, math.nan
+
+
+def _times(recording: Recording) -> list[tuple[float, float]]:
+    """The time of each sample in s twice: for gaps, where one without is at that before, as is."""
+    if recording.time is None:
+        return [(0.0, math.nan)] * len(recording)
+    measured = recording.time.tolist()
+    present, now = [], 0.0
+    for time in measured:
+        now = now if math.isnan(time) else time
+        present.append(now)
+    return list(zip(present, measured, strict=True))
+
+
+def _faults(recording: Recording, settings: Settings) -> list[str]:
+    """Why each sample is no pair of tensions, as far as that is seen of it alone."""
+    found = worse_reasons(
+        *(
+            scaled_arrays(of, scale._replace(gain=1.0, bias=0.0, max_tension=MAX_TENSION))[1]
+            for of, scale in zip(
+                (recording.tension_l, recording.tension_s), settings.scales, strict=True
+            )
+        )
+    )
+    known = recording.known_faults
+    return [before or now for before, now in zip(known, found.tolist(), strict=True)]
+
+
+def usable(recording: Recording, settings: Settings) -> Recording:
+    """Return the recording with 0 N for a slack cable, and NaN where no tension is believed.
+
+    Parameters
+    ----------
+    settings : Settings
+        How the unit is measured and what is believed.
+    """
+    samples = Samples(recording, settings)
+    judged = [samples.judged(place) for place in range(len(recording))]
+    tension_l, tension_s = np.array(judged).reshape(-1, 2).T
+    return dataclasses.replace(recording, tension_l=tension_l, tension_s=tension_s)
