@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from designs import PRELIMINARY
-from filter.sessions import UNITS, session
+from measure_filter.sessions import UNITS, session
 
 from tendon_statics import (
     BendAngleError,

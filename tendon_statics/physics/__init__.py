@@ -30,6 +30,7 @@ from .solver import residual, solve
 from .state import Equilibrium, Regime
 from .tensions import Tensions
 from .tracker import StickSlipTracker
+from .uncertainty import SlipAngleDistribution, slip_angle_distribution
 
 if TYPE_CHECKING:
     from .batch import EquilibriumBatch, solve_batch
@@ -57,6 +58,7 @@ __all__ = [
     'Load',
     'LoadError',
     'Regime',
+    'SlipAngleDistribution',
     'StickSlipFilter',
     'StickSlipTracker',
     'TendonStaticsError',
@@ -71,6 +73,7 @@ __all__ = [
     'design_fields',
     'design_parameters',
     'residual',
+    'slip_angle_distribution',
     'slip_margin',
     'solve',
     'solve_batch',

@@ -108,8 +108,12 @@ def excess_by_design(
         if parameter.name in names:
             value = getattr(design, parameter.name)
 
-            def answer(change: float, name: str = parameter.name, value: float = value) -> SlipAnswer:
-                return SlipAnswer(excess(dataclasses.replace(design, **{name: value + change})), 0.0)
+            def answer(
+                change: float, name: str = parameter.name, value: float = value
+            ) -> SlipAnswer:
+                return SlipAnswer(
+                    excess(dataclasses.replace(design, **{name: value + change})), 0.0
+                )
 
             step = STEP * _scale(parameter, design, total)
             found.append((names.index(parameter.name), _slopes(answer, step).excess))

@@ -24,7 +24,7 @@ from .design_gradients import excess_by_design
 from .design_uncertainty import DesignUncertainty
 from .gradients import slip_by_tensions
 from .load import UPRIGHT, Load
-from .roots import Bracket, refine
+from .roots import Probe, refine
 from .slip import Slip
 from .state import Regime
 from .tensions import Tensions, check_tensions, taut_slip
@@ -173,11 +173,12 @@ class SlipAngleDistribution:
         if not self.is_closed_form:
             return self._drawn.quantile(q)
         score = _Score(self, _NORMAL.inv_cdf(q))
-        at_zero, at_stop = score.value(0.0), score.value(self._stop)
-        if not at_zero < 0.0 <= at_stop:
+        ends = score.probe(0.0), score.probe(self._stop)
+        if not ends[0][1] < 0.0 <= ends[1][1]:
             return None
-        ahead, _ = refine(score, Bracket(0.0, at_zero, self._stop, at_stop))
-        return self._slip.side * ahead
+        root, _ = refine(score, ends)
+        ahead: float = root[0]
+        return self._slip.side * ahead  # type: ignore[no-any-return]
 
     def interval(self, level: float = 0.95) -> tuple[float, float] | None:
         """Return the interval in rad that holds the angle of an equilibrium with a probability.
@@ -247,15 +248,16 @@ class _Score:
         self._distribution = distribution
         self._level = level
 
-    def value(self, place: float) -> float:
-        return self._distribution._score(place) - self._level
-
-    def value_and_slope(self, place: float) -> tuple[float, float]:
+    def probe(self, place: float) -> Probe:
+        """Return place, value and slope."""
         step = 1e-6
-        before, after = self.value(place - step), self.value(place + step)
-        return self.value(place), (after - before) / (2.0 * step)
+        before, here, after = (
+            self._distribution._score(at) for at in (place - step, place, place + step)
+        )
+        return place, here - self._level, (after - before) / (2.0 * step)
 
-    def slope_bounds(self, _low: float, _high: float) -> tuple[float, float]:
+    def slope_bounds(self, _one: Probe, _other: Probe) -> tuple[float, float]:
+        """Nothing is known of the slope."""
         return -math.inf, math.inf
 
 

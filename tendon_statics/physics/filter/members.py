@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..contact.law import Turn
+from ..array_numbers import ARRAYS
 from ..design import JointDesign
 from ..load import DeadLoad
 from ..roots import refine
-from ..slip import ROUNDING, Slip
+from ..slip import ROUNDING, LoadedJoint, Slip
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -31,10 +31,10 @@ def slips_of(design: JointDesign, dead: DeadLoad, tensions: Floats) -> Slip:
     """
     tension_l, tension_s = tensions
     taut = (tension_l > 0.0) & (tension_s > 0.0)
-    size = np.hypot(dead.force_x, dead.force_z)
-    excess = np.where(taut, tension_l + tension_s - size, np.nan)
+    joint = LoadedJoint.of(design, dead)
+    excess = np.where(taut, tension_l + tension_s - joint.size, np.nan)
     excess = np.where(excess > 0.0, excess, np.nan)
-    return Slip.towards_s(design, dead, excess, tension_l, tension_s)
+    return Slip(joint, excess, tension_l, tension_s, numbers=ARRAYS)
 
 
 class Step:
@@ -48,13 +48,17 @@ class Step:
         Whether friction cannot hold it where it was.
     """
 
-    def __init__(self, slip: Slip, angles: Floats, stop: float) -> None:
-        cosine, sine = np.cos(angles), np.sin(angles)
-        moment = slip.moment.at(angles, cosine, sine)
-        self.side = np.where(moment < 0.0, -1.0, 1.0)
-        of_tilt, across = slip.tilted(cosine, sine)
-        capacity = slip.law.capacity(slip.load, of_tilt, self.side * across)
-        self.moves: Flags = self.side * moment > capacity * (1.0 + ROUNDING)
+    def __init__(self, slips: Slip, angles: Floats, stop: float) -> None:
+        probe = slips.probe(angles)
+        self.side = np.where(probe[5] < 0.0, -1.0, 1.0)
+        if np.any(self.side < 0.0):
+            slips = slips.facing(self.side)
+            probe = slips.probe(self.side * angles)
+        self.slips = slips
+        """The slip functions, each towards the side to which it drives"""
+        self.probe = probe
+        """Them at the angles of the members"""
+        self.moves: Flags = probe[5] > probe[8][0] * (1.0 + ROUNDING)
         self.pressed: Flags = self.moves & (self.side * angles >= stop)
         """Whether it is driven on against a stop"""
 
@@ -80,7 +84,7 @@ def follow(design: JointDesign, slips: Slip, angles: Floats) -> tuple[Floats, Fl
     if not driven.any():
         return angles, np.zeros(len(angles), np.bool_)
     first = int(np.argmax(driven.any(axis=1)))
-    slips, sides = part_of(slips, slice(first, None)), np.unique(whole.side[driven])
+    slips, sides = slips.part(slice(first, None)), np.unique(whole.side[driven])
     path = _pushed(slips, angles, stop, sides)
     if path is None and len(sides) == 1:
         path = _pushed(slips, angles, stop, np.array([-1.0, 1.0]))
@@ -105,10 +109,7 @@ def _pushed(slips: Slip, angles: Floats, stop: float, sides: Floats) -> Floats |
     for side in sides:
         facing = slips.facing(side)
         low = max(float((side * angles).min()), -stop)
-        least = 0.5 * (low + stop)
-        _, greatest = facing.slope_bounds_turn(
-            np.cos(least), np.sin(least), Turn.by(0.5 * (stop - low))
-        )
+        _, greatest = facing.slope_bounds(facing.probe(low), facing.probe(stop))
         if not np.all((greatest < 0.0) | np.isnan(greatest)):
             return None
         ends.append(
@@ -133,11 +134,10 @@ def _root_of_falling(slips: Slip, place: Floats, lowest: float, stop: float) -> 
     """Roots of falling functions, ahead; the ends of the range where there is none within."""
     low, high = np.full(place.shape, lowest), np.full(place.shape, stop)
     for _ in range(NEWTON_STEPS):
-        point = slips.at_turn(place, np.cos(place), np.sin(place))
-        excess = point.excess
+        _, excess, slope, *_ = slips.probe(place)
         low, high = np.where(excess > 0.0, place, low), np.where(excess > 0.0, high, place)
         # Beyond an end Newton's step is cut there, and the function's sign there ends it.
-        ahead = np.clip(place - excess / point.slope, low, high)
+        ahead = np.clip(place - excess / slope, low, high)
         still = np.nanmax(np.abs(ahead - place), initial=0.0) < STILL
         place = ahead
         if still:
@@ -150,7 +150,7 @@ def _stepped(design: JointDesign, slips: Slip, angles: Floats) -> Floats:
     stop = design.max_bend_angle
     path = [angles]
     for index in range(len(slips.total)):
-        row = part_of(slips, index)
+        row = slips.part(index)
         step = Step(row, angles, stop)
         moved = step.moves & ~step.pressed
         if moved.any():
@@ -160,64 +160,27 @@ def _stepped(design: JointDesign, slips: Slip, angles: Floats) -> Floats:
     return np.array(path)
 
 
-def part_of(slips: Slip, index: object) -> Slip:
-    """Return a part of arrays of slip functions."""
-
-    def part(values: object) -> object:
-        return values[index] if np.ndim(values) else values  # type: ignore[index, arg-type]
-
-    return Slip(
-        slips.law,
-        type(slips.load)(*map(part, slips.load)),
-        (part(slips.tilt[0]), part(slips.tilt[1])),
-        type(slips.moment)(*map(part, slips.moment)),
-        part(slips.total),
-        part(slips.side),  # type: ignore[arg-type]
-    )
-
-
 def _landings(
     design: JointDesign, slips: Slip, side: Floats, angles: Floats, which: Flags
 ) -> Floats:
     """Where those members come to rest that are driven on: the first root ahead, or the stop."""
     stop = design.max_bend_angle
-    facing = part_of(slips, which).facing(side[which])
+    facing = slips.part(which).facing(side[which])
     start = side[which] * angles[which]
-    least, greatest = _slope_bounds(facing, start, stop)
+    at_stop = facing.probe(stop)
+    least, greatest = facing.slope_bounds(facing.probe(float(start.min())), at_stop)
     landing = np.full(len(start), stop)
     # Falling all the way: one root, or none before the stop. Rising: none.
-    at_stop = facing.value_turn(stop, np.cos(stop), np.sin(stop))
     falling = greatest < 0.0
-    rooted = np.flatnonzero(falling & (at_stop < 0.0))
+    rooted = np.flatnonzero(falling & (at_stop[1] < 0.0))
     if len(rooted):
-        landing[rooted] = _newton(part_of(facing, rooted), start[rooted], stop)
+        landing[rooted] = _root_of_falling(
+            facing.part(rooted), start[rooted], float(start.min()), stop
+        )
     for index in np.flatnonzero(~falling & ~(least > 0.0)):
-        one = part_of(facing, index)
-        found = one.brackets(float(start[index]), stop)
+        one = facing.one(int(index))
+        found = one.brackets(one.probe(float(start[index])), one.probe(stop))
         if found:
-            landing[index], _ = refine(one, found[0])
+            landing[index] = refine(one, found[0])[0][0]
     landings: Floats = side[which] * landing
     return landings
-
-
-def _slope_bounds(slips: Slip, start: Floats, stop: float) -> tuple[Floats, Floats]:
-    """Bounds of ∂g/∂θ from where each member is to the stop."""
-    low = float(start.min())
-    middle, turn = 0.5 * (low + stop), Turn.by(0.5 * (stop - low))
-    return slips.slope_bounds_turn(np.cos(middle), np.sin(middle), turn)
-
-
-def _newton(slips: Slip, start: Floats, stop: float) -> Floats:
-    """The root of functions that fall from `start` to the stop."""
-    low, high, place = start, np.full(len(start), stop), start
-    for _ in range(NEWTON_STEPS):
-        point = slips.at_turn(place, np.cos(place), np.sin(place))
-        above = point.excess > 0.0
-        low, high = np.where(above, place, low), np.where(above, high, place)
-        ahead = place - point.excess / point.slope
-        ahead = np.where((ahead >= low) & (ahead <= high), ahead, 0.5 * (low + high))
-        still = np.abs(ahead - place).max() < STILL
-        place = ahead
-        if still:
-            break
-    return place

@@ -140,12 +140,12 @@ class FilterState:
         if self._slips is None:
             return np.empty(0)
         with np.errstate(all='ignore'):
-            facing = self._slips.facing(self._step.side)
-            ahead = self._step.side * self._angles
-            point = facing.at_turn(ahead, np.cos(ahead), np.sin(ahead))
-            friction = np.minimum(point.moment, point.capacity)
-            contact = facing.law.contact(facing.load, point.cosine, point.sine, friction)
-            force = np.where(contact.consistent, facing.total * contact.normal, np.nan)
+            slips, probe = self._step.slips, self._step.probe
+            state = probe[8]
+            friction = np.minimum(probe[5], state[0])
+            normal = slips.law.normal(state, friction)
+            *_, consistent = slips.law.contact(state, friction, normal)
+            force = np.where(consistent, slips.total * normal, np.nan)
         pressures: Floats = force / self.design.contact_area
         return pressures
 

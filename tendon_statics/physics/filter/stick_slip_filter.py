@@ -16,7 +16,7 @@ from ..design import JointDesign
 from ..load import UPRIGHT, DeadLoad, Load
 from ..state import Regime
 from ..tensions import Tensions, check_tensions, taut_slip
-from .members import follow, part_of, slips_of
+from .members import follow, slips_of
 from .smoothing import REACH, SampleBuffer, Windows
 from .state import FilterState
 
@@ -198,8 +198,8 @@ class StickSlipFilter:
         paths = estimate.value[:, :, None] + errors * _TOWARDS_S - self._biases[:, None, :]
         slips = slips_of(self._design, self._dead_loads(ages), paths)
 
-        committed, _ = follow(self._design, part_of(slips, slice(settled)), self._committed)
-        newest, moved = follow(self._design, part_of(slips, slice(settled, None)), committed)
+        committed, _ = follow(self._design, slips.part(slice(settled)), self._committed)
+        newest, moved = follow(self._design, slips.part(slice(settled, None)), committed)
         for _ in range(settled):
             sample = self._samples.popleft()
         if settled:
@@ -211,7 +211,7 @@ class StickSlipFilter:
                     Tensions(*estimate.value[:, settled - 1].tolist()),
                     angles=committed,
                     moved=committed != self._committed,
-                    slips=part_of(slips, settled - 1),
+                    slips=slips.part(settled - 1),
                     provisional=False,
                     angle_assured=self._assured,
                 )
@@ -225,7 +225,7 @@ class StickSlipFilter:
             tensions,
             angles=newest,
             moved=moved,
-            slips=part_of(slips, -1),
+            slips=slips.part(-1),
             provisional=True,
             angle_assured=self._assured,
         )
