@@ -33,7 +33,7 @@ def noisy_cases(count, seed):
 
 def drawn(case, stddev, seed):
     noise = np.random.default_rng(seed).normal(0.0, stddev, (2, DRAWS))
-    tensions = np.maximum([[case.tension_l], [case.tension_s]] + noise, 0.0)
+    tensions = np.maximum(np.array([[case.tension_l], [case.tension_s]]) + noise, 0.0)
     return solve_batch(case.design, tensions[0], tensions[1], case.load)
 
 
@@ -106,7 +106,7 @@ def test_the_designs_own_uncertainty_counts(law):
         other = replace(
             design, **{name: getattr(design, name) + change for name, change in values.items()}
         )
-        pair = (1.0, tension_s) + noise.normal(0.0, 0.005, 2)
+        pair = np.array([1.0, tension_s]) + noise.normal(0.0, 0.005, 2)
         regimes.append(solve(other, *pair).regime)
     for regime in REGIMES:
         share = sum(one is regime for one in regimes) / len(regimes)

@@ -103,21 +103,18 @@ def excess_by_design(
     total : float
         T in N.
     """
-    found = []
-    for parameter in design_parameters():
-        if parameter.name in names:
-            value = getattr(design, parameter.name)
+    known = {parameter.name: parameter for parameter in design_parameters()}
 
-            def answer(
-                change: float, name: str = parameter.name, value: float = value
-            ) -> SlipAnswer:
-                return SlipAnswer(
-                    excess(dataclasses.replace(design, **{name: value + change})), 0.0
-                )
+    def slope(name: str) -> float:
+        value = getattr(design, name)
 
-            step = STEP * _scale(parameter, design, total)
-            found.append((names.index(parameter.name), _slopes(answer, step).excess))
-    return [slope for _, slope in sorted(found)]
+        def answer(change: float) -> SlipAnswer:
+            other: dict[str, Any] = {name: value + change}
+            return SlipAnswer(excess(dataclasses.replace(design, **other)), 0.0)
+
+        return _slopes(answer, STEP * _scale(known[name], design, total)).excess
+
+    return [slope(name) for name in names]
 
 
 def _tilted(load: Load, change: float) -> Load:

@@ -1,4 +1,4 @@
-"""Measure the filter beside the tracker: `make measure-filter`, or ``python -m measure_filter``."""
+"""Measure the filter beside the tracker: `make measure-filter`."""
 
 from __future__ import annotations
 
