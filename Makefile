@@ -34,6 +34,10 @@ MINUTES ?= 5
 soak: setup ## Stream faulty tensions at the estimator and balance the books (MINUTES=5)
 	@$(run) python tools/soak.py --minutes $(MINUTES)
 
+.PHONY: measure-filter
+measure-filter: setup ## Measure the filter on random sessions, beside the tracker (ARGS='--sessions 48')
+	@$(run) cd tools && python -m measure_filter $(ARGS)
+
 .PHONY: bench
 bench: setup ## Measure the speed beside NumPy, C and a bare relay; tables, and build/bench.json
 	@$(run) cd tools && python -m bench --json ../build/bench.json

@@ -1,5 +1,6 @@
 """The quasi-static model of a tendon-driven ball-joint unit: no ROS, no files, no printing."""
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from .admissible import admissible_angles, slip_margin
@@ -29,10 +30,12 @@ from .solver import residual, solve
 from .state import Equilibrium, Regime
 from .tensions import Tensions
 from .tracker import StickSlipTracker
+from .uncertainty import SlipAngleDistribution, slip_angle_distribution
 
 if TYPE_CHECKING:
     from .batch import EquilibriumBatch, solve_batch
     from .calibration import Calibration, LawComparison, calibrate, compare_laws
+    from .filter import FilterState, StickSlipFilter
 
 __all__ = [
     'CONTACT_LAWS',
@@ -48,12 +51,15 @@ __all__ = [
     'DesignUncertainty',
     'Equilibrium',
     'EquilibriumBatch',
+    'FilterState',
     'ForceRemainder',
     'JointDesign',
     'LawComparison',
     'Load',
     'LoadError',
     'Regime',
+    'SlipAngleDistribution',
+    'StickSlipFilter',
     'StickSlipTracker',
     'TendonStaticsError',
     'TensionError',
@@ -67,6 +73,7 @@ __all__ = [
     'design_fields',
     'design_parameters',
     'residual',
+    'slip_angle_distribution',
     'slip_margin',
     'solve',
     'solve_batch',
@@ -74,14 +81,20 @@ __all__ = [
 ]
 
 
+_NEEDING_NUMPY = {
+    'Calibration': '.calibration',
+    'EquilibriumBatch': '.batch',
+    'FilterState': '.filter',
+    'LawComparison': '.calibration',
+    'StickSlipFilter': '.filter',
+    'calibrate': '.calibration',
+    'compare_laws': '.calibration',
+    'solve_batch': '.batch',
+}
+"""Public name → the module that has it, loaded only by who asks for it"""
+
+
 def __getattr__(name: str) -> Any:
-    # NumPy is loaded only by who asks for what needs it.
-    if name in ('EquilibriumBatch', 'solve_batch'):
-        from . import batch
-
-        return getattr(batch, name)
-    if name in ('Calibration', 'LawComparison', 'calibrate', 'compare_laws'):
-        from . import calibration
-
-        return getattr(calibration, name)
-    raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
+    if name not in _NEEDING_NUMPY:
+        raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
+    return getattr(import_module(_NEEDING_NUMPY[name], __name__), name)

@@ -12,8 +12,8 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 from .design import DesignParameter, JointDesign, design_parameters
 from .errors import DesignError, TensionError
@@ -87,6 +87,34 @@ def answer_derivatives(
     if not all(map(math.isfinite, (*angles.values(), *pressures.values()))):
         return None
     return angles, pressures
+
+
+def excess_by_design(
+    excess: Callable[[JointDesign], float], design: JointDesign, names: Sequence[str], total: float
+) -> list[float]:
+    """Return the derivatives of a slip function at one angle by some parameters of the design.
+
+    Parameters
+    ----------
+    excess : callable
+        The slip function of a design there, in any unit.
+    names : sequence of str
+        Of `design_parameters`.
+    total : float
+        T in N.
+    """
+    known = {parameter.name: parameter for parameter in design_parameters()}
+
+    def slope(name: str) -> float:
+        value = getattr(design, name)
+
+        def answer(change: float) -> SlipAnswer:
+            other: dict[str, Any] = {name: value + change}
+            return SlipAnswer(excess(dataclasses.replace(design, **other)), 0.0)
+
+        return _slopes(answer, STEP * _scale(known[name], design, total)).excess
+
+    return [slope(name) for name in names]
 
 
 def _tilted(load: Load, change: float) -> Load:

@@ -191,6 +191,17 @@ class Slip:
         left, right = map(part, self._tensions)
         return Slip(joint, part(self.excess), left, right, part(self.side), self.numbers)
 
+    def one(self, index: int) -> Slip:
+        """Return the slip function of one of the pairs that there are in arrays, of floats."""
+        part = self.part(index)
+        law, size, tilt, lever, moment_x, moment_z, stiffness, turning = part.joint
+        joint = LoadedJoint(
+            *(law, float(size), (float(tilt[0]), float(tilt[1])), lever),
+            *(float(moment_x), float(moment_z), stiffness, float(turning)),
+        )
+        left, right = map(float, part._tensions)
+        return Slip(joint, float(part.excess), left, right, float(part.side))
+
     def facing(self, sign: Any) -> Slip:
         """Return the slip function towards the other side where `sign` is −1, the same for 1."""
         left, right = self._tensions

@@ -1,0 +1,217 @@
+"""`StickSlipFilter`: where a unit is under noise, how sure that is, and what it never does."""
+
+import math
+
+import numpy as np
+import pytest
+from designs import PRELIMINARY
+from measure_filter.sessions import UNITS, session
+
+from tendon_statics import (
+    BendAngleError,
+    Load,
+    Regime,
+    StickSlipFilter,
+    StickSlipTracker,
+    TensionError,
+)
+
+HANGING, _ = UNITS['hanging']
+NOISE = 0.02
+
+
+def fed(found, tensions, *, rate=500.0, noise=NOISE, seed=1, start=0.0, load=None):
+    """Feed a filter with noise on tensions; return its states."""
+    random = np.random.default_rng(seed)
+    states = []
+    for index, pair in enumerate(tensions):
+        noisy = np.array(pair) + random.normal(0.0, noise, 2)
+        more = () if load is None else (load,)
+        states.append(found.update(*noisy, start + index / rate, *more))
+    return states
+
+
+def test_a_unit_held_3_percent_below_slip_stays_where_it_is():
+    """The tracker is driven to the stop within seconds by the same samples."""
+    found = StickSlipFilter(PRELIMINARY, tension_stddev=NOISE)
+    tracker = StickSlipTracker(PRELIMINARY)
+    random = np.random.default_rng(4)
+    for index in range(5000):
+        pair = np.array([1.0, 1.98]) + random.normal(0.0, NOISE, 2)
+        state = found.update(*pair, index / 500.0)
+        tracker.update(*pair)
+    assert tracker.bend_angle == PRELIMINARY.max_bend_angle
+    assert state.interval(0.95) == (0.0, 0.0)
+    assert state.regime_probabilities[Regime.HELD] == 1.0
+    assert state.bend_angle_stddev == 0.0
+
+
+def test_without_noise_to_speak_of_it_is_the_tracker():
+    steps = np.linspace(3.0, 6.4, 400)
+    found = StickSlipFilter(HANGING, tension_stddev=1e-7)
+    tracker = StickSlipTracker(HANGING)
+    for index, tension_s in enumerate(steps):
+        state = found.update(3.0, tension_s, index / 500.0)
+        tracker.update(3.0, tension_s)
+    assert state.bend_angle == pytest.approx(tracker.bend_angle, abs=1e-3)
+    assert tracker.bend_angle > math.radians(10.0)
+
+
+def test_the_same_seed_gives_the_same_and_mirrored_tensions_the_mirror_image():
+    ramp = [(3.0, 3.0 + 0.004 * index) for index in range(800)]
+    runs = [StickSlipFilter(HANGING, tension_stddev=NOISE, seed=3) for _ in range(2)]
+    one, other = (fed(run, ramp)[-1] for run in runs)
+    np.testing.assert_array_equal(one.members, other.members)
+    random = np.random.default_rng(1)
+    mirrored = StickSlipFilter(HANGING, tension_stddev=NOISE)
+    for index, (tension_l, tension_s) in enumerate(ramp):
+        noise = random.normal(0.0, NOISE, 2)
+        state = mirrored.update(tension_s + noise[1], tension_l + noise[0], index / 500.0)
+    np.testing.assert_allclose(state.members, -one.members[::-1], atol=1e-7)
+
+
+def test_where_it_cannot_know_whether_the_unit_has_slipped_it_says_both():
+    """The unstable unit rests within the noise of slipping, where it would slide to the stop."""
+    limit = 2.0505867
+    found = StickSlipFilter(PRELIMINARY, tension_stddev=NOISE)
+    ramp = [(1.0, 1.0 + (limit - 1.0) * min(index / 400, 1.0)) for index in range(800)]
+    state = fed(found, ramp)[-1]
+    probabilities = state.regime_probabilities
+    assert sum(probabilities.values()) == pytest.approx(1.0)
+    low, high = state.interval(0.95)
+    assert (low, high) == (0.0, PRELIMINARY.max_bend_angle)
+
+
+def test_what_is_new_is_provisional_and_what_is_a_lag_old_is_not():
+    found = StickSlipFilter(HANGING, tension_stddev=NOISE, lag=0.1)
+    states = fed(found, [(3.0, 3.0 + 0.004 * index) for index in range(800)])
+    assert all(state.provisional for state in states)
+    committed = found.committed
+    assert not committed.provisional
+    assert states[-1].time - committed.time == pytest.approx(0.1, abs=0.003)
+    assert found.history(committed.time) is committed
+    earlier = found.history(1.0001)
+    assert earlier.time == pytest.approx(1.0)
+    assert not earlier.provisional
+    assert found.history(-1.0) is None
+
+
+def test_an_hour_below_slip_leaves_median_and_interval_where_they_were():
+    """At 10 Hz, 5 % below slip."""
+    design, weak = UNITS['hanging']
+    found = StickSlipFilter(design, tension_stddev=0.01)
+    fed(found, [(weak, weak + 0.01 * index) for index in range(300)], rate=100.0, noise=0.01)
+    before = fed(found, [(weak, 5.7)] * 100, rate=100.0, noise=0.01, start=10.0)[-1]
+    random = np.random.default_rng(6)
+    noises = random.normal(0.0, 0.01, (36_000, 2))
+    for index, (noise_l, noise_s) in enumerate(noises):
+        after = found.update(weak + noise_l, 5.7 + noise_s, 20.0 + index / 10.0)
+    assert after.bend_angle == pytest.approx(before.bend_angle, abs=math.radians(0.1))
+    for end, was in zip(after.interval(0.95), before.interval(0.95), strict=True):
+        assert end == pytest.approx(was, abs=math.radians(0.1))
+
+
+def test_a_measured_angle_puts_the_unit_there():
+    found = StickSlipFilter(HANGING, tension_stddev=NOISE, bend_angle_stddev=0.2)
+    assert fed(found, [(3.0, 3.5)] * 50)[-1].bend_angle_stddev > 0.1
+    found.measure(0.15, 0.002)
+    state = fed(found, [(3.0, 3.5)] * 50, start=1.0)[-1]
+    assert state.bend_angle == pytest.approx(0.15, abs=0.002)
+    assert state.bend_angle_stddev == pytest.approx(0.002, rel=0.3)
+    found.measure(0.15, 1.0)
+    again = fed(found, [(3.0, 3.5)] * 5, start=2.0)[-1]
+    assert again.bend_angle_stddev == pytest.approx(0.002, rel=0.3)
+
+
+def test_doubt_lasts_until_a_stop_or_a_measurement():
+    found = StickSlipFilter(PRELIMINARY, tension_stddev=NOISE)
+    assert fed(found, [(1.0, 1.5)] * 10)[-1].angle_assured
+    slack = found.update(0.0, 1.5, 1.0)
+    assert slack.regime is Regime.SLACK
+    assert slack.bend_angle is slack.pressure is slack.interval() is None
+    doubted = fed(found, [(1.0, 1.5)] * 10, start=2.0)[-1]
+    assert not doubted.angle_assured
+    assert doubted.bend_angle_stddev is None
+    found.measure(0.1, 0.01)
+    assert fed(found, [(1.0, 1.5)] * 10, start=3.0)[-1].angle_assured
+    found.doubt()
+    assert not fed(found, [(1.0, 1.5)] * 10, start=4.0)[-1].angle_assured
+    assert fed(found, [(1.0, 3.0)] * 200, start=5.0)[-1].angle_assured
+
+
+def test_a_bias_that_is_stated_widens_what_is_known():
+    ramp = [(3.0, 3.0 + 0.004 * index) for index in range(700)]
+    exact = StickSlipFilter(HANGING, tension_stddev=NOISE)
+    biased = StickSlipFilter(HANGING, tension_stddev=NOISE, tension_bias_stddev=0.05)
+    assert fed(biased, ramp)[-1].bend_angle_stddev > 2.0 * fed(exact, ramp)[-1].bend_angle_stddev
+
+
+def test_the_load_counts():
+    found = StickSlipFilter(HANGING, tension_stddev=NOISE)
+    tracker = StickSlipTracker(HANGING)
+    load = Load.tilted(0.3)
+    ramp = [(3.0, 3.0 + 0.004 * index) for index in range(700)]
+    state = fed(found, ramp, load=load)[-1]
+    for pair in ramp:
+        tracker.update(*pair, load)
+    assert state.bend_angle == pytest.approx(tracker.bend_angle, abs=math.radians(1.0))
+
+
+def test_pressure_comes_with_its_deviation():
+    found = StickSlipFilter(HANGING, tension_stddev=NOISE)
+    state = fed(found, [(3.0, 3.0 + 0.004 * index) for index in range(700)])[-1]
+    tracker = StickSlipTracker(HANGING, state.bend_angle)
+    expected = tracker.update(3.0, 3.0 + 0.004 * 699)
+    assert state.pressure == pytest.approx(expected.pressure, rel=0.05)
+    assert state.pressure_stddev > 0.0
+
+
+def test_bad_input_changes_nothing():
+    found = StickSlipFilter(PRELIMINARY, tension_stddev=NOISE)
+    fed(found, [(1.0, 1.5)] * 10)
+    for pair in ((math.nan, 1.0), (-1.0, 1.0), (0.05, 0.1)):
+        with pytest.raises(TensionError):
+            found.update(*pair, 1.0)
+    with pytest.raises(ValueError, match='is not after'):
+        found.update(1.0, 1.5, 0.0)
+    with pytest.raises(BendAngleError):
+        found.measure(2.0, 0.01)
+    with pytest.raises(ValueError, match='must be above 0'):
+        found.measure(0.1, 0.0)
+    assert fed(found, [(1.0, 1.5)], start=2.0)[-1].interval() == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    'wrong',
+    [
+        {'tension_stddev': 0.0},
+        {'tension_stddev': math.nan},
+        {'bend_angle_stddev': -1.0},
+        {'tension_bias_stddev': math.inf},
+        {'lag': -0.1},
+    ],
+)
+def test_deviations_that_are_none_are_refused(wrong):
+    with pytest.raises(ValueError, match=next(iter(wrong))):
+        StickSlipFilter(PRELIMINARY, **{'tension_stddev': 0.01, **wrong})
+
+
+@pytest.mark.parametrize('unit', list(UNITS))
+def test_the_truth_of_a_random_session_is_within_the_interval(unit):
+    """A rough check; `make measure-filter` has the figures."""
+    drawn = session(unit, 'ramps', 0.01, 200.0, 8.0, np.random.default_rng(12))
+    found = StickSlipFilter(drawn.design, tension_stddev=drawn.noise)
+    covered = []
+    for time, truth, *pair in zip(*(part.tolist() for part in drawn[4:]), strict=True):
+        low, high = found.update(*pair, time).interval(0.95)
+        covered.append(low - 1e-9 <= truth <= high + 1e-9)
+    assert np.mean(covered) > 0.7
+
+
+def test_a_gap_in_time_is_not_bridged():
+    """After it windows begin anew: what was before does not tell what the tensions are now."""
+    found = StickSlipFilter(HANGING, tension_stddev=NOISE)
+    fed(found, [(3.0, 4.0)] * 200)
+    state = fed(found, [(3.0, 6.0)] * 3, start=10.0)[-1]
+    expected = StickSlipTracker(HANGING).update(3.0, 6.0).bend_angle
+    assert state.bend_angle == pytest.approx(expected, abs=math.radians(2.0))

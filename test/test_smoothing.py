@@ -1,0 +1,58 @@
+"""`Windows`: rests and ramps are averaged, and corners are not cut."""
+
+import numpy as np
+import pytest
+
+from tendon_statics.physics.filter.smoothing import REACH, Windows
+
+NOISE = 0.01
+
+
+def estimate(signal, age, seed=0):
+    """Estimates at one age along a noisy signal, and their standard errors, by window."""
+    random = np.random.default_rng(seed)
+    samples = signal + random.normal(0.0, NOISE, len(signal))
+    ends = range(REACH + age + 1, len(signal) + 1)
+    found = [
+        Windows(REACH + age, np.array([age])).estimate(
+            samples[None, end - REACH - age : end], NOISE
+        )
+        for end in ends
+    ]
+    places = np.array([end - 1 - age for end in ends])
+    value, error = np.array([(one.value[0, 0], one.error[0, 0]) for one in found]).T
+    return signal[places], value, error
+
+
+def test_the_noise_of_a_rest_shrinks_by_the_root_of_the_samples():
+    truth, value, error = estimate(np.full(1500, 2.0), 75)
+    assert np.std(value - truth) < 0.2 * NOISE
+    assert np.median(error) == pytest.approx(NOISE / np.sqrt(129), rel=0.01)
+
+
+@pytest.mark.parametrize('age', [0, 10, 75])
+def test_a_ramp_is_followed_without_lag(age):
+    truth, value, _ = estimate(np.linspace(0.0, 3.0, 1500), age)
+    assert abs(np.mean(value - truth)) < 0.3 * NOISE
+    assert np.sqrt(np.mean((value - truth) ** 2)) < 0.9 * NOISE
+
+
+def test_a_rest_right_after_a_step_is_as_sure_as_in_its_midst():
+    """What keeps a fast step from being seen as higher than it is."""
+    signal = np.concatenate([np.zeros(300), np.linspace(0.0, 1.0, 11)[1:], np.ones(400)])
+    truth, value, error = estimate(signal, 75)
+    at_rest = np.flatnonzero(truth == 1.0)
+    beginning = at_rest[:20]
+    assert np.median(error[beginning]) < 0.25 * NOISE
+    assert (value[at_rest] - 1.0).max() < NOISE
+
+
+def test_errors_are_of_the_size_that_they_say():
+    truth, value, error = estimate(np.full(3000, 1.0), 40, seed=3)
+    assert np.std((value - truth) / error) == pytest.approx(1.0, abs=0.35)
+
+
+def test_the_first_sample_is_its_own_estimate():
+    found = Windows(1, np.array([0])).estimate(np.array([[2.5], [1.5]]), NOISE)
+    assert found.value[:, 0].tolist() == [2.5, 1.5]
+    assert found.error[:, 0].tolist() == [NOISE, NOISE]

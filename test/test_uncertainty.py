@@ -1,0 +1,143 @@
+"""`slip_angle_distribution` against draws, and what it says at its ends."""
+
+import itertools
+import math
+import random
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from brute import random_case
+from designs import PRELIMINARY
+
+from tendon_statics import (
+    DesignUncertainty,
+    Regime,
+    TensionError,
+    slip_angle_distribution,
+    solve,
+    solve_batch,
+)
+from tendon_statics.physics.batch import REGIME_CODES
+
+REGIMES = (Regime.EQUILIBRIUM, Regime.HELD, Regime.DRIVEN_TO_STOP)
+DRAWS = 20_000
+
+
+def noisy_cases(count, seed):
+    draw = random.Random(seed)
+    for case in itertools.islice(iter(lambda: random_case(draw), None), count):
+        share = draw.choice((0.002, 0.005, 0.01, 0.02))
+        yield case, share * (case.tension_l + case.tension_s)
+
+
+def drawn(case, stddev, seed):
+    noise = np.random.default_rng(seed).normal(0.0, stddev, (2, DRAWS))
+    tensions = np.maximum(np.array([[case.tension_l], [case.tension_s]]) + noise, 0.0)
+    return solve_batch(case.design, tensions[0], tensions[1], case.load)
+
+
+def test_probabilities_and_intervals_are_those_of_draws():
+    """Of random units of every law, tilt, tip force and stiffness."""
+    closed = intervals = 0
+    for seed, (case, stddev) in enumerate(noisy_cases(60, seed=5)):
+        found = slip_angle_distribution(
+            case.design, case.tension_l, case.tension_s, tension_stddev=stddev, load=case.load
+        )
+        answers = drawn(case, stddev, seed)
+        for regime in REGIMES:
+            share = np.mean(answers.regime == REGIME_CODES[regime])
+            assert found.probability(regime) == pytest.approx(share, abs=0.02), (case, regime)
+        rooted = answers.bend_angle[answers.regime == REGIME_CODES[Regime.EQUILIBRIUM]]
+        if len(rooted) > 0.05 * DRAWS:
+            low, high = found.interval(0.9)
+            covered = np.mean((rooted >= low) & (rooted <= high))
+            assert covered == pytest.approx(0.9, abs=0.03), case
+            intervals += 1
+        closed += found.is_closed_form
+    assert closed > 30
+    assert closed < 60
+    assert intervals > 15
+
+
+def test_the_published_pair():
+    """What the gradient calls ±7 degrees in a range of 30."""
+    found = slip_angle_distribution(PRELIMINARY, 1.0, 2.0, tension_stddev=0.01)
+    assert found.is_closed_form
+    assert sum(found.probability(regime) for regime in REGIMES) == pytest.approx(1.0)
+    assert found.cdf(math.radians(17.14)) == pytest.approx(0.5, abs=1e-6)
+    assert found.quantile(0.5) == pytest.approx(math.radians(17.14), abs=1e-6)
+    assert found.cdf(0.0) == found.probability('driven_to_stop')
+    assert 1.0 - found.cdf(PRELIMINARY.max_bend_angle) == pytest.approx(found.probability('held'))
+    mirrored = slip_angle_distribution(PRELIMINARY, 2.0, 1.0, tension_stddev=0.01)
+    assert mirrored.quantile(0.4) == pytest.approx(-found.quantile(0.4))
+    assert mirrored.interval(0.8) == pytest.approx([-end for end in found.interval(0.8)[::-1]])
+
+
+def test_a_quantile_within_another_regime_is_none():
+    held = slip_angle_distribution(PRELIMINARY, 1.0, 1.5, tension_stddev=0.01)
+    assert held.probability('held') == pytest.approx(1.0)
+    assert held.quantile(0.5) is None
+    assert held.interval() is None
+
+
+def test_next_to_equal_tensions_both_sides_count():
+    case = replace(PRELIMINARY, friction_coefficient=0.02)
+    found = slip_angle_distribution(case, 1.0, 1.001, tension_stddev=0.02)
+    assert not found.is_closed_form
+    assert found.probability('driven_to_stop') > 0.3
+
+
+@pytest.mark.parametrize('law', ['merged', 'friction_circle', 'elastic_seat'])
+def test_the_designs_own_uncertainty_counts(law):
+    """Against draws of designs, solved one by one."""
+    design = replace(PRELIMINARY, contact_law=law, friction_coefficient=0.3)
+    tension_s = 1.01 * _slip_tension(design)
+    names = ('friction_coefficient', 'cable_offset')
+    deviations = np.array([0.01, 1e-4])
+    uncertainty = DesignUncertainty(names, tuple(map(tuple, np.diag(deviations**2).tolist())))
+    found = slip_angle_distribution(
+        design, 1.0, tension_s, tension_stddev=0.005, design_covariance=uncertainty
+    )
+    noise = np.random.default_rng(8)
+    regimes = []
+    for _ in range(4000):
+        values = dict(zip(names, noise.normal(0.0, deviations).tolist(), strict=True))
+        other = replace(
+            design, **{name: getattr(design, name) + change for name, change in values.items()}
+        )
+        pair = np.array([1.0, tension_s]) + noise.normal(0.0, 0.005, 2)
+        regimes.append(solve(other, *pair).regime)
+    for regime in REGIMES:
+        share = sum(one is regime for one in regimes) / len(regimes)
+        assert found.probability(regime) == pytest.approx(share, abs=0.035), regime
+
+
+def _slip_tension(design):
+    low, high = 1.0, 20.0
+    while high - low > 1e-9:
+        middle = 0.5 * (low + high)
+        low, high = (
+            (middle, high) if solve(design, 1.0, middle).regime == 'held' else (low, middle)
+        )
+    return high
+
+
+@pytest.mark.parametrize('stddev', [0.0, -1.0, math.nan, math.inf])
+def test_a_deviation_that_is_none_is_refused(stddev):
+    with pytest.raises(ValueError, match='must be above 0'):
+        slip_angle_distribution(PRELIMINARY, 1.0, 2.0, tension_stddev=stddev)
+
+
+def test_a_slack_cable_is_refused():
+    with pytest.raises(TensionError, match='slack'):
+        slip_angle_distribution(PRELIMINARY, 0.0, 2.0, tension_stddev=0.01)
+
+
+@pytest.mark.parametrize('level', [0.0, 1.0, math.nan])
+def test_levels_are_between_0_and_1(level):
+    found = slip_angle_distribution(PRELIMINARY, 1.0, 2.0, tension_stddev=0.01)
+    with pytest.raises(ValueError, match='between 0 and 1'):
+        found.interval(level)
+    with pytest.raises(ValueError, match='between 0 and 1'):
+        found.quantile(level)

@@ -1,0 +1,101 @@
+"""Measure the filter beside the tracker: `make measure-filter`."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import secrets
+import sys
+from typing import NamedTuple
+
+import numpy as np
+
+from tendon_statics import StickSlipFilter, StickSlipTracker, TensionError
+from tendon_statics.command_line.tables import markdown_table
+
+from .sessions import Session, sessions
+
+FAR = math.radians(1.0)
+"""Error in rad from which on an angle counts as off"""
+
+
+class Score(NamedTuple):
+    """What one session showed, as shares of its samples."""
+
+    covered: float
+    off: float
+    tracker_off: float
+    width: float
+    """Mean width of the 95 % intervals in deg"""
+    committed_off: float
+
+
+def score(session: Session) -> Score:
+    """Run filter and tracker over a session."""
+    found = StickSlipFilter(session.design, tension_stddev=session.noise)
+    tracker = StickSlipTracker(session.design)
+    covered, off, tracker_off, width, committed_off, committed = 0, 0, 0, 0.0, 0, 0
+    angles = dict(zip(session.time.tolist(), session.bend_angle.tolist(), strict=True))
+    samples = zip(*(part.tolist() for part in session[4:]), strict=True)
+    for time, truth, tension_l, tension_s in samples:
+        try:
+            state = found.update(tension_l, tension_s, time)
+            tracker.update(tension_l, tension_s)
+        except TensionError:
+            continue
+        low, high = state.interval(0.95)
+        covered += low - 1e-9 <= truth <= high + 1e-9
+        off += abs(state.bend_angle - truth) > FAR
+        tracker_off += abs(tracker.bend_angle - truth) > FAR
+        width += high - low
+        if found.committed is not None:
+            committed += 1
+            error = found.committed.bend_angle - angles[found.committed.time]
+            committed_off += abs(error) > FAR
+    count = len(session.time)
+    return Score(
+        covered / count,
+        off / count,
+        tracker_off / count,
+        math.degrees(width / count),
+        committed_off / max(committed, 1),
+    )
+
+
+def main() -> int:
+    """Measure and print the table."""
+    parser = argparse.ArgumentParser(description='Measure StickSlipFilter on random sessions.')
+    parser.add_argument('--sessions', type=int, default=48, metavar='N')
+    parser.add_argument('--seconds', type=float, default=20.0, metavar='S', help='of a session')
+    parser.add_argument('--seed', type=int, default=secrets.randbelow(2**31), metavar='N')
+    options = parser.parse_args()
+    scores: dict[str, list[Score]] = {}
+    for number, session in enumerate(sessions(options.sessions, options.seconds, options.seed)):
+        kind = f'{session.program}, {session.unit}'
+        scores.setdefault(kind, []).append(score(session))
+        print(f'\r{number + 1} of {options.sessions} sessions', end='', file=sys.stderr)
+    print(file=sys.stderr)
+    everything = [one for of_kind in scores.values() for one in of_kind]
+    rows = [(kind, *_row(of_kind)) for kind, of_kind in scores.items()]
+    rows.append(('all', *_row(everything)))
+    titles = ('sessions', 'covered [%]:', 'least [%]:', 'width [deg]:', 'off [%]:')
+    print(markdown_table((*titles, 'off, committed [%]:', 'off, tracker [%]:'), rows))
+    print(f'\n{options.sessions} sessions of {options.seconds:g} s, seed {options.seed}')
+    return 0
+
+
+def _row(scores: list[Score]) -> tuple[str, ...]:
+    mean = Score(*np.mean(scores, axis=0))
+    least = min(one.covered for one in scores)
+    return (
+        f'{100.0 * mean.covered:.1f}',
+        f'{100.0 * least:.1f}',
+        f'{mean.width:.2f}',
+        f'{100.0 * mean.off:.2f}',
+        f'{100.0 * mean.committed_off:.2f}',
+        f'{100.0 * mean.tracker_off:.1f}',
+    )
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,173 @@
+"""Random sessions of a unit: what its tensions were, where it was, and what load cells said.
+
+The truth is the exact tracker on tensions without noise.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tendon_statics import (
+    JointDesign,
+    StickSlipTracker,
+    default_design_path,
+    load_design,
+    slip_margin,
+)
+
+Floats = NDArray[np.float64]
+
+PRELIMINARY = load_design(default_design_path())
+UNITS = {
+    'preliminary': (PRELIMINARY, 1.0),
+    'hanging': (
+        dataclasses.replace(
+            PRELIMINARY,
+            com_distance=-0.02,
+            mass=0.08,
+            friction_coefficient=0.4,
+            contact_start_angle=math.radians(20.0),
+            contact_end_angle=math.radians(50.0),
+            cable_offset=0.0025,
+        ),
+        3.0,
+    ),
+    'backbone, friction circle': (
+        dataclasses.replace(
+            PRELIMINARY,
+            friction_coefficient=0.25,
+            contact_law='friction_circle',
+            stiffness=0.02,
+            mass=0.01,
+        ),
+        2.0,
+    ),
+    'backbone, elastic seat': (
+        dataclasses.replace(
+            PRELIMINARY,
+            friction_coefficient=0.15,
+            contact_law='elastic_seat',
+            contact_start_angle=math.radians(20.0),
+            contact_end_angle=math.radians(50.0),
+            stiffness=0.03,
+            mass=0.02,
+        ),
+        2.0,
+    ),
+}
+"""Name → the unit, and the tension in N that the weaker cable keeps"""
+
+PROGRAMS = ('ramps', 'staircases', 'cycles')
+NOISES = (0.005, 0.01, 0.02)
+"""N"""
+RATES = (200.0, 500.0)
+"""Hz"""
+
+
+class Session(NamedTuple):
+    """One session; arrays of one sample each."""
+
+    unit: str
+    program: str
+    noise: float
+    """Standard deviation in N"""
+    design: JointDesign
+    time: Floats
+    bend_angle: Floats
+    """True, in rad"""
+    tension_l: Floats
+    """Measured, in N"""
+    tension_s: Floats
+
+
+def sessions(count: int, seconds: float, seed: int) -> Iterator[Session]:
+    """Yield random sessions; units, programs, noises and rates in turn."""
+    random = np.random.default_rng(seed)
+    kinds = itertools.cycle(itertools.product(PROGRAMS, UNITS, RATES))
+    for _, (program, unit, rate) in zip(range(count), kinds, strict=False):
+        yield session(unit, program, float(random.choice(NOISES)), rate, seconds, random)
+
+
+def session(
+    unit: str, program: str, noise: float, rate: float, seconds: float, random: np.random.Generator
+) -> Session:
+    """Return one random session."""
+    design, weak = UNITS[unit]
+    drive = _drive(design, weak, program, rate, seconds, random)
+    tension_l, tension_s = weak + np.maximum(-drive, 0.0), weak + np.maximum(drive, 0.0)
+    tracker = StickSlipTracker(design)
+    angles = [
+        tracker.update(*pair).bend_angle
+        for pair in zip(tension_l.tolist(), tension_s.tolist(), strict=True)
+    ]
+    return Session(
+        *(unit, program, noise, design),
+        np.arange(len(drive)) / rate,
+        np.array(angles),
+        *(cable + random.normal(0.0, noise, len(drive)) for cable in (tension_l, tension_s)),
+    )
+
+
+def _drive(
+    design: JointDesign,
+    weak: float,
+    program: str,
+    rate: float,
+    seconds: float,
+    random: np.random.Generator,
+) -> Floats:
+    """By how much the stronger cable exceeds the weaker in N, positive for cable s."""
+    count = int(seconds * rate)
+    first, last = sorted(_slip_tension(design, weak, share) for share in (0.0, 0.95))
+    if program == 'cycles':
+        height = (last - weak) * random.uniform(1.0, 1.12)
+        phase = 2.0 * math.pi * np.arange(count) / rate / random.uniform(1.5, 5.0)
+        return height * np.sin(phase)
+    parts, now = [np.zeros(1)], 0.0
+    while sum(map(len, parts)) < count:
+        level = _level(design, weak, first, last, random)
+        longest = 2.0 if program == 'ramps' else 0.05
+        way = (
+            random.uniform(0.15 * longest, longest)
+            if program == 'ramps'
+            else random.uniform(0.01, longest)
+        )
+        steps = max(1, int(way * rate))
+        parts.append(now + (level - now) * np.arange(1, steps + 1) / steps)
+        parts.append(np.full(int(random.uniform(0.2, 2.0) * rate), level))
+        now = level
+    return np.concatenate(parts)[:count]
+
+
+def _level(
+    design: JointDesign, weak: float, first: float, last: float, random: np.random.Generator
+) -> float:
+    """Where a ramp or a step ends: 1 to 10 % below slip, beyond it, or anywhere before it."""
+    onset = _slip_tension(design, weak, 0.0)
+    kind = random.random()
+    if kind < 0.35:
+        strong = onset * (1.0 - random.uniform(0.01, 0.10))
+    elif kind < 0.8:
+        strong = random.uniform(max(onset, first), 1.1 * max(onset, last))
+    else:
+        strong = random.uniform(weak, onset)
+    return float(random.choice([-1.0, 1.0]) * max(strong - weak, 0.0))
+
+
+def _slip_tension(design: JointDesign, weak: float, share: float) -> float:
+    """Tension of the stronger cable in N at which the unit slips at a share of its stop."""
+    low, high = weak, 30.0 * weak
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        if slip_margin(design, weak, middle, share * design.max_bend_angle) < 1.0:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)
