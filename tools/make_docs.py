@@ -18,6 +18,7 @@ import list_driver_parameters
 import list_entities
 import list_parameters
 import list_permissions
+import measure_filter.figure
 import validate.figure
 import validate.tables
 
@@ -82,6 +83,7 @@ def main() -> int:
     """Rewrite the pages and figures."""
     for name in PAGES:
         make_page(name)
+    measure_filter.figure.write(ROOT / 'docs/filter.svg')
     for name, arguments in FIGURES.items():
         if run([*shlex.split(arguments), '--output', str(ROOT / name)]) != 0:
             return 1

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 SEED, SECONDS, NOISE, RATE = 2, 12.0, 0.02, 500.0
 
+DRAWN = slice(None, None, 5)
+"""Samples that are drawn; more are no better to see"""
+
 
 def draw(drawing: Figure) -> None:
     """Draw the hanging unit through ramps and rests."""
@@ -25,10 +28,10 @@ def draw(drawing: Figure) -> None:
     found = StickSlipFilter(drawn.design, tension_stddev=NOISE)
     tracker = StickSlipTracker(drawn.design)
     median, low, high, believing = [], [], [], []
-    for time, tension_l, tension_s in zip(
+    for at, tension_l, tension_s in zip(
         drawn.time.tolist(), drawn.tension_l.tolist(), drawn.tension_s.tolist(), strict=True
     ):
-        state = found.update(tension_l, tension_s, time)
+        state = found.update(tension_l, tension_s, at)
         ends = state.interval(0.95)
         median.append(math.degrees(state.bend_angle))
         low.append(math.degrees(ends[0]))
@@ -39,14 +42,17 @@ def draw(drawing: Figure) -> None:
         (drawn.tension_l, GREEN, 'T_l'),
         (drawn.tension_s, ORANGE, 'T_s'),
     ):
-        above.plot(drawn.time, tension, color=colour, linewidth=0.6, label=name)
+        above.plot(drawn.time[DRAWN], tension[DRAWN], color=colour, linewidth=0.6, label=name)
     above.set_ylabel('tension [N]')
     above.legend(loc='upper left', ncols=2, frameon=False)
-    below.fill_between(drawn.time, low, high, color='#cfe3f1', label='filter, 95 % interval')
-    below.plot(drawn.time, believing, color=GREY, linewidth=1.2, label='tracker')
-    below.plot(drawn.time, median, color=BLUE, linewidth=1.4, label='filter, median')
+    time = drawn.time[DRAWN]
+    below.fill_between(
+        time, low[DRAWN], high[DRAWN], color='#cfe3f1', label='filter, 95 % interval'
+    )
+    below.plot(time, believing[DRAWN], color=GREY, linewidth=1.2, label='tracker')
+    below.plot(time, median[DRAWN], color=BLUE, linewidth=1.4, label='filter, median')
     truth = np.degrees(drawn.bend_angle)
-    below.plot(drawn.time, truth, color=VERMILION, linewidth=1.0, linestyle='--', label='truth')
+    below.plot(time, truth[DRAWN], color=VERMILION, linewidth=1.0, linestyle='--', label='truth')
     below.set_xlabel('time [s]')
     below.set_ylabel('bend angle θ [°]')
     below.legend(loc='best', frameon=False)
