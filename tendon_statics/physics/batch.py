@@ -291,12 +291,12 @@ def _chunks(*arrays: NDArray[Any]) -> Iterator[tuple[slice, tuple[NDArray[Any], 
         start = end
 
 
-def _facing_slips(
+def _excess(
     design: JointDesign, load: Any, tension_l: Any, tension_s: Any, dead: Sequence[Any]
-) -> Slip:
-    """The slip functions of taut pairs, each towards the side of the stronger cable."""
+) -> Floats:
+    """T − |P| in N of each pair."""
     of_load: Any = DeadLoad(*dead) if dead else load.on(design)
-    size = np.hypot(of_load.force_x, of_load.force_z)
+    size = of_load.size
     excess: Any = tension_l + tension_s - size
     # Few pairs are so near the load that they need the exact sum.
     for index in np.flatnonzero(np.abs(excess) <= 0.01 * size):
@@ -304,9 +304,17 @@ def _facing_slips(
         excess[index] = tension_excess(
             *(design, its_load, float(its_size)), float(tension_l[index]), float(tension_s[index])
         )
+    return excess  # type: ignore[no-any-return]
+
+
+def _facing_slips(
+    design: JointDesign, load: Any, tension_l: Any, tension_s: Any, dead: Sequence[Any]
+) -> Slip:
+    """The slip functions of taut pairs, each towards the side of the stronger cable."""
+    of_load: Any = DeadLoad(*dead) if dead else load.on(design)
+    excess = _excess(design, load, tension_l, tension_s, dead)
     side = np.where(tension_l > tension_s, -1.0, 1.0)
-    joint = LoadedJoint.of(design, of_load)
-    return Slip(joint, excess, tension_l, tension_s, side, ARRAYS)
+    return Slip(LoadedJoint.of(design, of_load), excess, tension_l, tension_s, side, ARRAYS)
 
 
 class _Rows:
@@ -336,18 +344,18 @@ def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
     taken = (weak >= 0.0) & (np.maximum(tension_l, tension_s) <= MAX_TENSION)
     chunk.regime[taken & (weak == 0.0)] = REGIME_CODES[Regime.SLACK]
     (taut,) = np.nonzero(taken & (weak > 0.0))
-    load = chunk.load[taut] if dead else chunk.load  # type: ignore[index]
-    rows = _Rows(
-        _facing_slips(
-            design, load, tension_l[taut], tension_s[taut], [part[taut] for part in dead]
-        )
-    )
-    light = rows.slip.excess > 0.0
+
+    def of_taut() -> tuple[Any, ...]:
+        load = chunk.load[taut] if dead else chunk.load  # type: ignore[index]
+        return design, load, tension_l[taut], tension_s[taut], [part[taut] for part in dead]
+
+    light = _excess(*of_taut()) > 0.0
     if not light.all():
         if design.law.carries_more_than_cables:
             for index in taut[~light]:
                 _solve_one(chunk, index)
-        taut, rows = taut[light], _Rows(rows.slip.part(light))
+        taut = taut[light]
+    rows = _Rows(_facing_slips(*of_taut()))
     stop = design.max_bend_angle
     found = array_brackets(rows, len(taut), 0.0, stop)
     counts = np.where(rows.slip.is_determined, found.root_count, 0)
@@ -364,8 +372,8 @@ def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
     chunk.regime[taut[rooted]] = REGIME_CODES[Regime.EQUILIBRIUM]
     slip = rows.slip.part(rooted)
     roots = array_refine(_Rows(slip), *(list(ends[:, rooted]) for ends in (found.low, found.high)))
-    point = _fill(chunk, taut[rooted], slip, roots.places)
-    chunk.stable[taut[rooted]] = point.slope < 0.0
+    slope = _fill(chunk, taut[rooted], slip, roots.places)
+    chunk.stable[taut[rooted]] = slope < 0.0
     chunk.iterations[taut[rooted]] = roots.steps
 
     unresolved = found.unresolved
@@ -374,15 +382,14 @@ def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
         _solve_one(chunk, index)
 
 
-def _fill(
-    chunk: EquilibriumBatch, at: NDArray[Any], slip: Slip, ahead: Floats | float
-) -> SlipPoint:
-    """Fill in what follows from the angles ahead, in rad; return the slip functions there."""
-    point = slip.at(ahead)
+def _fill(chunk: EquilibriumBatch, at: NDArray[Any], slip: Slip, ahead: Floats | float) -> Floats:
+    """Fill in what follows from the angles ahead, in rad; return ∂g/∂θ there."""
+    probe = slip.probe(ahead)
+    slope, state = probe[2], probe[8]
     chunk.bend_angle[at] = slip.side * ahead
-    chunk.normal_force[at] = slip.total * slip.law.normal(point.state, point.capacity)
-    chunk.residual[at] = slip.total * point.excess / chunk.design.friction_coefficient
-    return point
+    chunk.normal_force[at] = slip.total * slip.law.normal(state, state[0])
+    chunk.residual[at] = slip.residual_at(probe)
+    return slope  # type: ignore[no-any-return]
 
 
 def _solve_one(chunk: EquilibriumBatch, index: int) -> None:
