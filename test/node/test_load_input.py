@@ -78,9 +78,7 @@ def load_taken(listener, publisher, message) -> bool:
 
 def test_ten_degrees_by_parameter(listener):
     direction = f'[{math.sin(TILT)}, 0.0, {-math.cos(TILT)}]'
-    with listener.estimator('-p', f'gravity_direction:={direction}', greet=False) as program:
-        listener.connect(program, greet=False)
-        wait_for('an answer', lambda: listener.publish(*SLIPPING) or listener.estimates)
+    with listener.estimator('-p', f'gravity_direction:={direction}'):
         assert_tilted(listener)
         # The services have the same load, unless they are given another.
         assert math.degrees(listener.solve(*SLIPPING).bend_angle) == pytest.approx(7.14, abs=5e-4)
