@@ -216,8 +216,15 @@ def test_a_storm_is_weathered(observer, recording):
         assert 1000 < len(observer.regimes) <= grown['pairs solved']
         assert program.memory() < memory + 20.0
         observer.forget()
-        with driver(recording, 'rate:=100.0', 'count:=100'):
-            wait_for('all of a quiet driver', lambda: len(observer.estimates) >= 90)
+        with driver(recording, 'rate:=100.0'):
+            wait_for('estimates of a quiet driver', lambda: len(observer.estimates) >= 90)
+        # Nothing is queued: each reading is answered before the next, and not one behind.
+        with spinning(Listener) as slow:
+            slow.connect(program)
+            for row in ROWS[:50]:
+                assert slow.answer(*row) == Regime.DRIVEN_TO_STOP.value
+                newest = slow.newest_estimate()
+                assert (newest.tension_l, newest.tension_s) == row
         assert 'Traceback' not in program.output()
 
 
