@@ -12,8 +12,11 @@ os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
 
 
 def pytest_xdist_auto_num_workers():
-    """Two workers a core, since tests of the node mostly wait for one another's processes."""
-    return 2 * len(os.sched_getaffinity(0))
+    """Two workers a core, since tests of the node mostly wait for one another's processes.
+
+    More than 16 gain little, and each has processes and a ROS domain of its own.
+    """
+    return min(2 * len(os.sched_getaffinity(0)), 16)
 
 
 def pytest_collection_modifyitems(items):

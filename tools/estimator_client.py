@@ -164,10 +164,10 @@ class EstimatorClient(Node):
         self.tension_publishers[0].publish(message)
 
     def call(self, name: str, request: Any) -> Any:
-        """Call a service of the estimator.
+        """Call a service of the estimator that does the same however often it is called.
 
         An answer may be lost while the estimator does not know this client yet, so the call is
-        repeated; none of the services counts its calls.
+        repeated until there is one.
         """
         client = self._clients_by_name[name]
         assert client.wait_for_service(TIME_LIMIT)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from designs import PRELIMINARY
 from make_docs import ROOT
-from programs import PROGRAM, assert_refused, run, run_installed
+from programs import PROGRAM, TIME_LIMIT, assert_refused, run, run_installed
 
 from tendon_statics import default_design_path, solve
 from tendon_statics.command_line.main import VERBS
@@ -190,7 +190,7 @@ def test_a_reader_that_stops_reading_is_no_error():
         ['bash', '-c', f'{" ".join(PROGRAM)} design | head -n 1; echo ${{PIPESTATUS[0]}}'],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=TIME_LIMIT,
         check=True,
     )
     assert done.stdout.splitlines()[-1] == '0'
@@ -244,4 +244,4 @@ def test_the_physics_needs_neither_ros_nor_files_nor_the_command_line():
         'ours = [name for name in sys.modules if name.startswith("tendon_statics.")]\n'
         'assert not [n for n in ours if ".node" in n or ".command_line" in n], ours\n'
     )
-    subprocess.run([sys.executable, '-c', code], check=True, timeout=60)
+    subprocess.run([sys.executable, '-c', code], check=True, timeout=TIME_LIMIT)

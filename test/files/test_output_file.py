@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from programs import PROGRAM
+from programs import PROGRAM, TIME_LIMIT
 from ros_programs import wait_for
 
 from tendon_statics.files.output_file import OutputError, output_file
@@ -109,7 +109,7 @@ def test_a_signal_leaves_nothing_half_written_and_no_traceback(tmp_path, number)
     ) as process:
         wait_for('the file to be begun', lambda: list(tmp_path.iterdir()))
         process.send_signal(number)
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=TIME_LIMIT)
     assert process.returncode == 128 + number
     assert errors == ''
     assert list(tmp_path.iterdir()) == []

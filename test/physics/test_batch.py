@@ -13,6 +13,7 @@ import pytest
 from designs import PRELIMINARY, random_cases, random_design, random_tensions, tensions_at_slip
 from hypothesis import given
 from hypothesis import strategies as st
+from programs import TIME_LIMIT
 from thoroughness import examples
 
 from tendon_statics import JointDesign, Load, Regime, TensionError, solve, solve_batch
@@ -336,7 +337,7 @@ def test_numpy_is_loaded_only_for_a_batch():
         'assert tendon_statics.solve_batch is physics.solve_batch\n'
         'assert "numpy" in sys.modules\n'
     )
-    subprocess.run([sys.executable, '-c', code], check=True, timeout=60)
+    subprocess.run([sys.executable, '-c', code], check=True, timeout=TIME_LIMIT)
 
 
 def test_margins_are_those_of_solve_under_every_law():

@@ -19,7 +19,7 @@ from rclpy.context import Context
 from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.qos import QoSProfile
 from rclpy.time import Time
-from ros_programs import Program, wait_for
+from ros_programs import TIME_LIMIT, Program, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Header
 from std_srvs.srv import Trigger
@@ -32,6 +32,13 @@ KINDS: dict[str | None, dict[str, type]] = {
     'wrench_pair': {'tension_l': WrenchStamped, 'tension_s': WrenchStamped},
 }
 """``tension_source`` → topics of tensions → types"""
+
+
+def reliable_input(tension_source: str = 'array') -> list[str]:
+    """Return arguments with which the estimator takes every message of tensions."""
+    topics = KINDS[tension_source]
+    values = (f'qos_overrides./{topic}.subscription.reliability:=reliable' for topic in topics)
+    return [part for value in values for part in ('-p', value)]
 
 
 class Listener(EstimatorClient):
@@ -48,10 +55,10 @@ class Listener(EstimatorClient):
         'reset': Trigger,
         'tare': Trigger,
         'change_state': ChangeState,
-        'get_state': GetState,
         'get_parameters': GetParameters,
         'describe_parameters': DescribeParameters,
         'set_parameters_atomically': SetParametersAtomically,
+        'get_state': GetState,  # the last; see call_once
     }
 
     def __init__(self, context: Context, tension_source: str | None = 'array') -> None:
@@ -109,11 +116,8 @@ class Listener(EstimatorClient):
 
     def change_state(self, transition: str) -> bool:
         """Ask for a transition of the estimator's lifecycle by its label."""
-        before = self.estimator_state()
         request = ChangeState.Request(transition=Transition(label=transition))
-        changed = self.call('change_state', request).success
-        # An answer may be lost after it was done; the second call then finds it done.
-        return changed or self.estimator_state() != before
+        return self.call_once('change_state', request).success
 
     def estimator_state(self) -> str:
         """Return the state of the estimator's lifecycle."""
@@ -196,6 +200,20 @@ class Listener(EstimatorClient):
         wait_for('the estimate', come)
         return self.estimates[-1]
 
+    def call_once(self, name: str, request: Any) -> Any:
+        """Call a service that does something else if it is called again, such as ``~/tare``.
+
+        The estimator learns of the clients of a node in the order in which they were made. Once
+        it answers the last of them, which only asks for the state, it knows them all, and no
+        answer is lost any more.
+        """
+        self.estimator_state()
+        client = self._clients_by_name[name]
+        assert client.wait_for_service(TIME_LIMIT)
+        future = client.call_async(request)
+        wait_for(f'an answer of {name}', future.done)
+        return future.result()
+
     def solve_inverse(self, bend_angle: float, **given: float) -> SolveInverse.Response:
         """Call ``~/solve_inverse``."""
         request = SolveInverse.Request(bend_angle=bend_angle, **given)
@@ -207,7 +225,7 @@ class Listener(EstimatorClient):
 
     def tare(self) -> Trigger.Response:
         """Call ``~/tare``."""
-        return self.call('tare', Trigger.Request())
+        return self.call_once('tare', Trigger.Request())
 
     def solve_latest(self) -> Trigger.Response:
         """Call ``~/solve_latest``."""
