@@ -10,6 +10,7 @@ import time
 import numpy as np
 import pytest
 from designs import PRELIMINARY
+from listener import reliable_input
 from rclpy.qos import ReliabilityPolicy
 from ros_programs import Program, wait_for
 from std_msgs.msg import Float64
@@ -119,7 +120,7 @@ def test_the_regimes_of_the_message_are_those_of_the_physics():
 def test_a_storm_of_malformed_messages_loses_nothing_of_the_good_ones(listener):
     """Bursts of 440 messages as fast as they can be sent, one in eleven of them good."""
     good = [(1.0, 2.9 + 0.001 * index) for index in range(400)]
-    with listener.estimator() as program:
+    with listener.estimator(*reliable_input()) as program:
         for index, row in enumerate(good):
             for burst in range(10):
                 listener.publish(*MALFORMED[(index + burst) % len(MALFORMED)])

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticStatus
-from listener import Listener
+from listener import Listener, reliable_input
 from ros_programs import EXECUTOR, Program, spinning, wait_for
 
 from tendon_statics import Regime
@@ -15,7 +15,6 @@ ROWS = [(1.0, 2.6 + 0.001 * index) for index in range(300)]
 """All driven to the stop, so that something comes on every topic."""
 
 KINDS = ('array', 'joint_state', 'wrench_pair')
-TOPICS = dict.fromkeys(KINDS, ('tensions',)) | {'wrench_pair': ('tension_l', 'tension_s')}
 OUTPUTS = ('regime', 'estimate', 'bend_angle')
 STAMP_FAULTS = ('out_of_order_probability:=0.02', 'repeated_stamp_probability:=0.02')
 FAULTS = (
@@ -53,11 +52,9 @@ def estimator_of(observer, recording, *more: str, kind: str = 'array', reliable=
     values = [f'tension_source:={kind}', 'max_skew:=0.0005', *more]
     # Room for a listener that is slow on a busy machine.
     values += [f'qos_overrides./estimator/{topic}.publisher.depth:=5000' for topic in OUTPUTS]
-    if reliable:  # so that every message counts
-        values += [
-            f'qos_overrides./{topic}.subscription.reliability:=reliable' for topic in TOPICS[kind]
-        ]
     arguments = [part for value in values for part in ('-p', value)]
+    if reliable:  # so that every message counts
+        arguments += reliable_input(kind)
     with observer.estimator(*arguments, greet=False) as program:
         with driver(recording, 'rate:=200.0', kind=kind):
             wait_for('the estimator to be heard', observer.hears_all)
@@ -284,7 +281,7 @@ def test_stamps_that_go_backwards_are_dropped_and_the_good_ones_kept():
 
     with (
         spinning(lambda context: Listener(context, 'joint_state')) as listener,
-        listener.estimator('-p', 'input_timeout:=60.0'),
+        listener.estimator('-p', 'input_timeout:=60.0', *reliable_input('joint_state')),
     ):
         base = listener.get_clock().now().nanoseconds // 10**9 + 100
         good = [Time(sec=base + second) for second in range(100)]

@@ -34,7 +34,7 @@ KINDS: dict[str | None, dict[str, type]] = {
 """``tension_source`` → topics of tensions → types"""
 
 
-def reliable_input(tension_source: str = 'array') -> list[str]:
+def reliable_input(tension_source: str | None = 'array') -> list[str]:
     """Return arguments with which the estimator takes every message of tensions."""
     topics = KINDS[tension_source]
     values = (f'qos_overrides./{topic}.subscription.reliability:=reliable' for topic in topics)
@@ -63,7 +63,7 @@ class Listener(EstimatorClient):
 
     def __init__(self, context: Context, tension_source: str | None = 'array') -> None:
         super().__init__(context, KINDS[tension_source])
-        self._tension_source = tension_source
+        self.tension_source = tension_source
         self.diagnostics: list[DiagnosticStatus] = []
         self.measured_bend_angle = self.create_publisher(Float64, 'measured_bend_angle', 10)
         self._reported: list[int] = []  # when each status was, in ns
@@ -79,8 +79,8 @@ class Listener(EstimatorClient):
     @contextmanager
     def estimator(self, *ros_arguments: str, greet: bool = True) -> Iterator[Program]:
         """Run the installed estimator for the kind of tensions, connected in both directions."""
-        if self._tension_source not in (None, 'array'):
-            ros_arguments = ('-p', f'tension_source:={self._tension_source}', *ros_arguments)
+        if self.tension_source not in (None, 'array'):
+            ros_arguments = ('-p', f'tension_source:={self.tension_source}', *ros_arguments)
         with super().estimator(*ros_arguments, greet=greet) as program:
             yield program
 
@@ -166,11 +166,11 @@ class Listener(EstimatorClient):
     def publish(self, *data: float, stamp: Stamp | None = None) -> None:
         """Publish one reading; unless it is an array, stamped with the present time or `stamp`."""
         values = [float(value) for value in data]
-        if self._tension_source == 'array':
+        if self.tension_source == 'array':
             super().publish(*values)
             return
         header = Header(stamp=stamp or self.get_clock().now().to_msg())
-        if self._tension_source == 'joint_state':
+        if self.tension_source == 'joint_state':
             names = ['cable_l', 'cable_s']
             message = JointState(header=header, name=names[: len(values)], effort=values)
             self.tension_publishers[0].publish(message)
