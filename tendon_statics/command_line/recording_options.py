@@ -10,6 +10,7 @@ from pathlib import Path
 from ..files.cable_parameters import TENSION_SOURCES
 from ..files.unit_file import Unit
 from ..recordings.hints import hints
+from ..recordings.progress import Progress
 from ..recordings.reading.clock import CLOCKS
 from ..recordings.reading.load import ENDINGS, load_recording
 from ..recordings.reading.table_options import SEPARATORS, TableOptions
@@ -31,13 +32,18 @@ TIP_WRENCH = '/tip_wrench'
 
 
 def add_recording_options(parser: argparse.ArgumentParser) -> None:
-    """Add ``DATA`` and what says how it is read: where in a bag or table the numbers are."""
+    """Add ``DATA`` and what says how it is read."""
     parser.add_argument(
         'data',
         type=Path,
         metavar='DATA',
         help=f'recording, ending in {", ".join(ENDINGS)}, or the folder of a bag',
     )
+    add_reading_options(parser)
+
+
+def add_reading_options(parser: argparse.ArgumentParser) -> None:
+    """Add what says where in a bag or table the numbers are."""
     _add_bag_options(parser.add_argument_group('of a bag'))
     _add_table_options(parser.add_argument_group('of a table'))
 
@@ -161,6 +167,13 @@ def unit_and_recording(options: argparse.Namespace) -> tuple[Unit, Recording]:
     The tensions are in N and have faults as the estimator would find them with that file.
     """
     unit = unit_from(options)
+    return unit, recording_from(options, unit, options.data)
+
+
+def recording_from(
+    options: argparse.Namespace, unit: Unit, path: Path, progress: Progress = with_progress
+) -> Recording:
+    """Read a recording of a unit as the options say, with tensions in N."""
     topics = BagTopics(
         tensions=options.tensions_topic,
         tension_source=options.tension_source or unit.get('tension_source'),
@@ -190,8 +203,7 @@ def unit_and_recording(options: argparse.Namespace) -> tuple[Unit, Recording]:
         skip_rows=options.skip_rows,
         encoding=options.encoding,
     )
-    recording = load_recording(options.data, topics, table, progress=with_progress)
-    return unit, of_unit(recording, unit)
+    return of_unit(load_recording(path, topics, table, progress=progress), unit)
 
 
 def report_damage(recording: Recording) -> int:

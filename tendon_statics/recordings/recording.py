@@ -48,6 +48,8 @@ class Recording:
     """s"""
     time_origin: int = 0
     """ns of the Unix epoch at which `time` is 0, where that is known"""
+    clock: str = ''
+    """Of a bag, what `time` is by: ``stamp`` or ``log``, topic by topic where they differ"""
     name: str = 'recording'
     """Where it comes from, without the folder"""
     damage: tuple[str, ...] = ()
