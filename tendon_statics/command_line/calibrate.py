@@ -16,7 +16,13 @@ from ..recordings.plausible_fit import objections
 from ..recordings.recording import Recording
 from .calibration_options import add_calibration_options, calibration_from, states_text
 from .calibration_text import calibration_text
-from .options import add_design_option, add_format_option, add_load_options, print_json
+from .options import (
+    add_design_option,
+    add_format_option,
+    add_load_options,
+    design_name,
+    print_json,
+)
 from .recording_options import add_recording_options, report_damage, unit_and_recording
 from .replay_text import reading_facts
 from .tables import Facts
@@ -137,10 +143,9 @@ def _cell_facts(calibration: Calibration, unit: Unit, recording: Recording) -> F
 def _provenance(options: argparse.Namespace, recording: Recording) -> str:
     from importlib.metadata import version
 
-    start = Path(options.design).name if options.design else 'the preliminary design'
     lines = [
         f'Fitted on {date.today().isoformat()} by tendon_statics {version("tendon_statics")}, '
-        f'starting from {start}.',
+        f'starting from {design_name(options)}.',
         f'States: {states_text(options)}.',
     ]
     if recording.damage:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import math
+from importlib.util import find_spec
 from typing import Any, NamedTuple
 
 from ..files.unit_file import Unit
 from ..physics import CONTACT_LAWS, Calibration, CalibrationError, DesignError, calibrate
 from ..physics.calibration import DEFAULT_FIT, SLIPPING, LawComparison, compare_laws
+from ..physics.calibration.parameters import checked_fit
 from ..recordings.errors import RecordingError
 from ..recordings.hints import hints
 from ..recordings.motion import mark_motion
@@ -22,6 +24,8 @@ from .options import (
     tension_stddev_from,
 )
 from .recorded_load import recorded_load
+
+NEEDS_SCIPY = 'a calibration needs SciPy: install python3-scipy or pip install scipy'
 
 ALL_LAWS = 'all'
 """Of ``--contact-law``: compare them"""
@@ -108,6 +112,25 @@ def states_text(options: argparse.Namespace) -> str:
     return 'all slipping, as was said' if options.all_slipping else 'those of the recording'
 
 
+def check_calibration_options(options: argparse.Namespace) -> None:
+    """Check what can be checked before there are data.
+
+    Raises
+    ------
+    CalibrationError
+        If a parameter is not known.
+    UsageError
+        If SciPy is missing.
+    """
+    checked_fit(_fit(options))
+    if find_spec('scipy') is None:
+        raise UsageError(NEEDS_SCIPY)
+
+
+def _fit(options: argparse.Namespace) -> list[str]:
+    return [name.strip() for name in options.fit.split(',') if name.strip()]
+
+
 class Fitted(NamedTuple):
     """What was fitted, and how the contact laws compare if that was asked."""
 
@@ -131,7 +154,7 @@ def calibration_from(options: argparse.Namespace, unit: Unit, recording: Recordi
         asked: dict[str, Any] = {
             'design': unit.design,
             'data': states_from(options, usable(recording, unit.settings)),
-            'fit': [name.strip() for name in options.fit.split(',') if name.strip()],
+            'fit': _fit(options),
             'tension_stddev': tension_stddev_from(options, unit),
             'bend_angle_stddev': math.radians(options.bend_angle_stddev_deg),
             'pressure_stddev': options.pressure_stddev,
@@ -143,8 +166,6 @@ def calibration_from(options: argparse.Namespace, unit: Unit, recording: Recordi
         assert comparison.best.calibration is not None
         return Fitted(comparison.best.calibration, comparison)
     except ImportError:
-        raise UsageError(
-            'a calibration needs SciPy: install python3-scipy or pip install scipy'
-        ) from None
+        raise UsageError(NEEDS_SCIPY) from None
     except (CalibrationError, DesignError, RecordingError) as error:
         raise type(error)('; '.join([str(error), *hints(recording, unit.design)])) from None

@@ -174,7 +174,13 @@ def recording_from(
     options: argparse.Namespace, unit: Unit, path: Path, progress: Progress = with_progress
 ) -> Recording:
     """Read a recording of a unit as the options say, with tensions in N."""
-    topics = BagTopics(
+    topics, table = topics_from(options, unit), table_from(options)
+    return of_unit(load_recording(path, topics, table, progress=progress), unit)
+
+
+def topics_from(options: argparse.Namespace, unit: Unit) -> BagTopics:
+    """Return where in a bag the numbers are, by the options or the unit's file."""
+    return BagTopics(
         tensions=options.tensions_topic,
         tension_source=options.tension_source or unit.get('tension_source'),
         cable_names=options.cable_names or tuple(unit.get('cable_names') or DEFAULTS.cable_names),
@@ -195,7 +201,11 @@ def recording_from(
         tension_skew=unit.get('max_skew'),
         clock=options.clock,
     )
-    table = TableOptions(
+
+
+def table_from(options: argparse.Namespace) -> TableOptions:
+    """Return what a table looks like, by the options."""
+    return TableOptions(
         separator=options.separator,
         decimal=options.decimal,
         columns=options.columns,
@@ -203,7 +213,6 @@ def recording_from(
         skip_rows=options.skip_rows,
         encoding=options.encoding,
     )
-    return of_unit(load_recording(path, topics, table, progress=progress), unit)
 
 
 def report_damage(recording: Recording) -> int:

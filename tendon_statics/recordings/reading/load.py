@@ -66,6 +66,11 @@ def load_recording(
         raise RecordingError(f'{path}: it cannot be read: {error.strerror or error}') from None
 
 
+def is_recording_file(path: Path) -> bool:
+    """Whether a file is a recording, or one of a bag, by its ending."""
+    return path.suffix in ENDINGS or is_bag_file(path)
+
+
 def _table(path: Path, options: TableOptions | None, progress: Progress) -> Recording:
     if path.suffix == '.parquet':
         from .parquet_file import load_parquet

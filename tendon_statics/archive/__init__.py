@@ -1,0 +1,1 @@
+"""Many recordings through the model, on many processes or machines, into one data set."""
