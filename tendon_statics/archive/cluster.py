@@ -10,6 +10,7 @@ from typing import Any, Generic, TypeVar
 
 from ..recordings.errors import one_line
 from ..recordings.libraries import needed
+from . import PURPOSE
 from .errors import ArchiveError
 
 WAITING = 256
@@ -40,7 +41,7 @@ def connected(workers: int | None = None, scheduler: str | None = None) -> Itera
     RecordingError
         If distributed is missing.
     """
-    (distributed,) = needed('distributed', purpose='Archives of recordings')
+    (distributed,) = needed('distributed', purpose=PURPOSE)
     if scheduler is not None:
         try:
             client = distributed.Client(scheduler, timeout=CONNECT)
@@ -107,7 +108,7 @@ class Results(Generic[T, R]):
 
     def _done(self, things: Sequence[T], waiting: int) -> Iterator[tuple[T, Any]]:
         """Give each thing with the future that is done, never more than some at once."""
-        (distributed,) = needed('distributed', purpose='Archives of recordings')
+        (distributed,) = needed('distributed', purpose=PURPOSE)
         left = iter(things)
         sent: dict[str, T] = {}
 
@@ -123,7 +124,7 @@ class Results(Generic[T, R]):
 
 
 def _has_killed(future: Any) -> bool:
-    (distributed,) = needed('distributed', purpose='Archives of recordings')
+    (distributed,) = needed('distributed', purpose=PURPOSE)
     return future.status == 'error' and isinstance(
         future.exception(), distributed.scheduler.KilledWorker
     )

@@ -18,6 +18,7 @@ from ..files.output_file import OutputError, output_file
 from ..recordings.libraries import needed
 from ..recordings.reading.columns import READINGS
 from ..recordings.recording import OF_LOAD
+from . import PURPOSE
 from .row import Row
 from .summary_table import summary_table
 
@@ -85,7 +86,7 @@ class Dataset:
         OutputError
             If it has other things in it, cannot be made, or is being written to.
         """
-        needed('pyarrow', purpose='Archives of recordings')
+        needed('pyarrow', purpose=PURPOSE)
         try:
             if self.folder.exists() and not is_dataset(self.folder) and any(self.folder.iterdir()):
                 raise OutputError(
@@ -123,7 +124,7 @@ class Dataset:
                 yield row
 
     def _row(self, path: Path) -> Row | None:
-        (parquet,) = needed('pyarrow.parquet', purpose='Archives of recordings')
+        (parquet,) = needed('pyarrow.parquet', purpose=PURPOSE)
         try:
             metadata = parquet.read_schema(path).metadata or {}
             return Row.of_dict(json.loads(metadata[_ROW]))
@@ -138,7 +139,7 @@ class Dataset:
         OutputError
             If they cannot be written.
         """
-        pa, parquet = needed('pyarrow', 'pyarrow.parquet', purpose='Archives of recordings')
+        pa, parquet = needed('pyarrow', 'pyarrow.parquet', purpose=PURPOSE)
         length = len(columns['tension_l'])
         kinds = [(NUMBERS, pa.float64()), (TEXTS, pa.string()), (TRUTHS, pa.bool_())]
         arrays = {
@@ -166,6 +167,6 @@ class Dataset:
         OutputError
             If it cannot be written.
         """
-        pa, parquet = needed('pyarrow', 'pyarrow.parquet', purpose='Archives of recordings')
+        pa, parquet = needed('pyarrow', 'pyarrow.parquet', purpose=PURPOSE)
         with output_file(self.folder / SUMMARY) as temporary:
             parquet.write_table(summary_table(pa, rows), temporary, compression='zstd')

@@ -77,7 +77,11 @@ def _walk(path: Path, entered: set[Path]) -> Iterator[Path]:
         return
     entered.add(real)
     try:
-        there = sorted(entry for entry in path.iterdir() if not entry.name.startswith('.'))
+        # Links last: what is there itself is called by its own path.
+        there = sorted(
+            (entry for entry in path.iterdir() if not entry.name.startswith('.')),
+            key=lambda entry: (entry.is_symlink(), entry.name),
+        )
     except OSError:
         yield path
         return

@@ -11,12 +11,14 @@ from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
 
+from ..archive import PURPOSE
 from ..archive.cluster import Results, connected
 from ..archive.dataset import Dataset
 from ..archive.finding import find_recordings
-from ..archive.row import DAMAGED, Row
+from ..archive.row import DAMAGED, STATUSES, Row
 from ..archive.work import Outcome, Work
 from ..physics.admissible import check_bend_angle
+from ..recordings.libraries import needed
 from .archive_page import write_archive_page
 from .archive_study import Study, what_counts
 from .calibration_options import add_calibration_options, check_calibration_options
@@ -83,6 +85,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Find the recordings, have them worked on, write summary and page, say what came of it."""
+    needed('distributed', 'pyarrow', purpose=PURPOSE)
     unit = unit_from(options)
     check_bend_angle(unit.design, initial_bend_angle_from(options, unit))
     topics_from(options, unit)
@@ -117,7 +120,8 @@ def _facts(
     options: argparse.Namespace, outcomes: Sequence[Outcome], others: Sequence[Row]
 ) -> Facts:
     rows = [outcome.row for outcome in outcomes]
-    statuses = Counter(row.status for row in rows)
+    counted = Counter(row.status for row in rows)
+    statuses = {status: counted[status] for status in STATUSES if counted[status]}
     new = sum(outcome.is_new for outcome in outcomes)
     facts = [
         ('data set', str(options.output)),
