@@ -10,7 +10,7 @@ from typing import Any, Generic, TypeVar
 
 from ..recordings.errors import one_line
 from ..recordings.libraries import needed
-from . import PURPOSE
+from . import PURPOSE, local_worker
 from .errors import ArchiveError
 
 WAITING = 256
@@ -59,6 +59,7 @@ def connected(workers: int | None = None, scheduler: str | None = None) -> Itera
             processes=True,
             dashboard_address=None,
             silence_logs='CRITICAL',
+            preload=[local_worker.__name__],
         ) as cluster,
         distributed.Client(cluster) as client,
     ):

@@ -69,7 +69,7 @@ def find_recordings(folders: Sequence[Path], exclude: Collection[str] = ()) -> l
 def _walk(path: Path, entered: set[Path]) -> Iterator[Path]:
     """Give the paths of recordings at and below a path; links are followed, not in a circle."""
     if not path.is_dir():
-        if is_recording_file(path):
+        if path.is_file() and is_recording_file(path):  # and no pipe, which never ends
             yield path
         return
     real = path.resolve()

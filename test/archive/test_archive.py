@@ -238,6 +238,30 @@ def test_a_killed_run_leaves_nothing_half_and_the_next_goes_on(
     assert_same(output, dataset)
 
 
+def test_an_interrupted_run_on_this_machine_ends_in_silence_and_the_next_goes_on(tmp_path, capsys):
+    folder, output = tmp_path / 'runs', tmp_path / 'dataset'
+    folder.mkdir()
+    shutil.copy(SESSION, folder / '000.mcap')
+    for number in range(1, 300):
+        os.link(folder / '000.mcap', folder / f'{number:03}.mcap')
+    given = ['archive', str(folder), '--output', str(output), '--workers', '1']
+    program = 'import sys; from tendon_statics.command_line.main import main; sys.exit(main())'
+    with subprocess.Popen(
+        [sys.executable, '-c', program, *given], stderr=subprocess.PIPE, start_new_session=True
+    ) as process:
+        wait_for_parts(output)
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+        _, errors = process.communicate(timeout=TIME_LIMIT)
+    assert process.returncode == 128 + signal.SIGINT
+    assert errors == b''
+    for path in sorted(folder.iterdir())[4:]:
+        path.unlink()
+    assert main(given) == 0
+    there = int(capsys.readouterr().out.split('; ')[1].split()[0])
+    assert there >= 3
+    assert len([name for name in rows(output) if (folder.parent / name).exists()]) == 4
+
+
 def test_only_what_has_changed_is_done_again(cluster, archive, tmp_path, capsys):
     folder, output = tmp_path / 'day0', tmp_path / 'dataset'
     shutil.copytree(archive / 'day0', folder)
@@ -319,6 +343,7 @@ def test_what_lies_elsewhere_is_left_out(tmp_path):
         write_csv(tmp_path / name, 1, rows=2)
     (tmp_path / 'old/.samples.lock').touch()
     (tmp_path / 'circle').symlink_to(tmp_path)
+    os.mkfifo(tmp_path / 'pipe.csv')
     (tmp_path / 'linked').symlink_to(tmp_path / 'raw')
     base = tmp_path.name
 
