@@ -137,7 +137,7 @@ def _facts(
         facts.append(
             (
                 'kept',
-                f'{len(others)} of earlier runs, which are not below these folders, as '
+                f'{len(others)} of earlier runs, which are not among these recordings, as '
                 f'{others[0].recording}',
             )
         )
@@ -153,7 +153,7 @@ def _as_dict(
         'recordings': len(rows),
         'statuses': Counter(row.status for row in rows),
         'worked_on': sum(outcome.is_new for outcome in outcomes),
-        'kept_of_other_folders': len(others),
+        'kept_of_earlier_runs': len(others),
         'problems': {row.path: row.problem for row in rows if row.problem},
     }
 

@@ -14,6 +14,7 @@ import pyarrow.dataset
 import pytest
 from bags import write_bag
 from distributed import Client, LocalCluster
+from make_docs import ROOT
 from programs import TIME_LIMIT
 from pyarrow import parquet
 from ros_programs import wait_for
@@ -24,6 +25,8 @@ from tendon_statics.archive.cluster import Results
 from tendon_statics.archive.dataset import PAGE, SUMMARY, Dataset
 from tendon_statics.archive.errors import ArchiveError
 from tendon_statics.archive.finding import Found, find_recordings
+from tendon_statics.archive.row import STATUSES
+from tendon_statics.archive.summary_table import summary_columns
 from tendon_statics.archive.work import Work
 from tendon_statics.command_line.main import VERBS, main
 from tendon_statics.files.installed_files import installed_config
@@ -422,6 +425,12 @@ def test_a_study_that_fails_costs_one_recording(tmp_path):
     row, is_new = work(found)
     assert (row.status, is_new) == ('failed', True)
     assert row.error == 'MemoryError: a.csv is too long'
+
+
+def test_the_page_on_archives_names_every_column_and_status():
+    text = (ROOT / 'docs/archive.md').read_text(encoding='utf-8')
+    for name in (*summary_columns(), *STATUSES):
+        assert f'`{name}`' in text
 
 
 def test_other_verbs_load_nothing_of_it():
