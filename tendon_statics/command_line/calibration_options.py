@@ -12,20 +12,23 @@ from ..files.unit_file import Unit
 from ..physics import CONTACT_LAWS, Calibration, CalibrationError, DesignError, calibrate
 from ..physics.calibration import DEFAULT_FIT, SLIPPING, LawComparison, compare_laws
 from ..physics.calibration.parameters import checked_fit
+from ..physics.calibration.sessions import follow_each_other
 from ..recordings.errors import RecordingError
 from ..recordings.hints import hints
 from ..recordings.motion import mark_motion
 from ..recordings.recording import Recording
 from ..recordings.samples import usable
-from ..recordings.sessions import follow_each_other
 from .options import (
     UsageError,
     add_tension_stddev_option,
     tension_stddev_from,
 )
 from .recorded_load import recorded_load
+from .tables import Facts
 
 NEEDS_SCIPY = 'a calibration needs SciPy: install python3-scipy or pip install scipy'
+
+ASSUMED = 'all slipping, as is taken of a list without states and times'
 
 ALL_LAWS = 'all'
 """Of ``--contact-law``: compare them"""
@@ -105,11 +108,19 @@ def states_from(options: argparse.Namespace, recording: Recording) -> Recording:
     return recording
 
 
-def states_text(options: argparse.Namespace) -> str:
+def states_text(options: argparse.Namespace, recording: Recording) -> str:
     """Say where the states come from."""
     if options.motion_step_deg is not None:
         return f'motions of the angle by more than {options.motion_step_deg:g} deg'
-    return 'all slipping, as was said' if options.all_slipping else 'those of the recording'
+    if options.all_slipping:
+        return 'all slipping, as was said'
+    return 'those of the recording' if recording.state is not None else ASSUMED
+
+
+def assumed_facts(options: argparse.Namespace, recording: Recording) -> Facts:
+    """Say that samples are taken to slip without anybody's saying so, where they are."""
+    text = states_text(options, recording)
+    return [('states', text)] if text == ASSUMED else []
 
 
 def check_calibration_options(options: argparse.Namespace) -> None:

@@ -14,7 +14,12 @@ from ..recordings.errors import RecordingError
 from ..recordings.recording import Recording
 from ..recordings.scaling import corrected
 from . import figure_calibration, figure_recording
-from .calibration_options import Fitted, add_calibration_options, calibration_from
+from .calibration_options import (
+    Fitted,
+    add_calibration_options,
+    assumed_facts,
+    calibration_from,
+)
 from .calibration_text import (
     LAW_TITLES,
     PARAMETER_TITLES,
@@ -32,6 +37,7 @@ from .page import fact_table, table, warning, write_page
 from .recording_options import add_recording_options, report_damage, unit_and_recording
 from .replay import add_estimation_options, replay_from
 from .replay_text import replay_facts
+from .tables import Facts
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -69,7 +75,8 @@ def run(options: argparse.Namespace) -> int:
         recording = corrected(recording, calibration.cells or AS_MEASURED)
         if calibration.design is None:
             of = f'{design_name(options)}, since the fit does not determine a design'
-        fitted = _calibration_part(fit, recording, design_name(options))
+        facts = [('start', design_name(options)), *assumed_facts(options, recording)]
+        fitted = _calibration_part(fit, recording, facts)
     replayed = replay_from(options, unit, design, recording)
     parts += [
         f'<h2>Recording, with {escape(of)}</h2>',
@@ -88,13 +95,13 @@ def run(options: argparse.Namespace) -> int:
     return report_damage(recording)
 
 
-def _calibration_part(fit: Fitted, recording: Recording, start: str) -> list[str]:
+def _calibration_part(fit: Fitted, recording: Recording, facts: Facts) -> list[str]:
     calibration, comparison = fit
     names = [parameter.name for parameter in calibration.parameters]
     parts = [
         '<h2>Calibration</h2>',
         *map(warning, calibration.warnings),
-        fact_table([('start', start), *calibration_facts(calibration, recording.name)]),
+        fact_table([*facts, *calibration_facts(calibration, recording.name)]),
     ]
     if comparison is not None:
         parts += [table(LAW_TITLES, law_rows(comparison)), fact_table(law_facts(comparison))]
