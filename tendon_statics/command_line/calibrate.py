@@ -57,7 +57,7 @@ def run(options: argparse.Namespace) -> int:
     unit, recording = unit_and_recording(options)
     calibration, comparison = calibration_from(options, unit, recording)
     read = [
-        *reading_facts(recording, unit.design),
+        *reading_facts(recording, unit, unit.design),
         *assumed_facts(options, recording),
         *_cell_facts(calibration, unit, recording),
     ]

@@ -179,4 +179,6 @@ def calibration_from(options: argparse.Namespace, unit: Unit, recording: Recordi
     except ImportError:
         raise UsageError(NEEDS_SCIPY) from None
     except (CalibrationError, DesignError, RecordingError) as error:
-        raise type(error)('; '.join([str(error), *hints(recording, unit.design)])) from None
+        raise type(error)(
+            '; '.join([str(error), *hints(recording, unit.design, unit.settings.plausibility)])
+        ) from None

@@ -157,6 +157,9 @@ def _add_table_options(table: argparse._ArgumentGroup) -> None:
         help='lines before the titles; default: %(default)s',
     )
     table.add_argument(
+        '--rate', type=float, metavar='HZ', help='rows per second of a table without times'
+    )
+    table.add_argument(
         '--encoding', metavar='NAME', help='of a text file, say latin-1; default: utf-8'
     )
 
@@ -212,6 +215,7 @@ def table_from(options: argparse.Namespace) -> TableOptions:
         units=options.units,
         skip_rows=options.skip_rows,
         encoding=options.encoding,
+        rate=options.rate,
     )
 
 
@@ -229,7 +233,7 @@ def report_damage(recording: Recording) -> int:
 
 def report_notes(unit: Unit, recording: Recording) -> None:
     """Name on stderr how it was read and what looks wrong, for verbs whose output is a table."""
-    for text in (*recording.notes, *hints(recording, unit.design)):
+    for text in (*recording.notes, *hints(recording, unit.design, unit.settings.plausibility)):
         print(f'tendon-statics: {recording.name}: {text}', file=sys.stderr)
 
 

@@ -87,7 +87,7 @@ def run(options: argparse.Namespace) -> int:
     replayed = replay_from(options, unit, unit.design, recording)
     if write is not None:
         write(options.output, replayed, with_progress)
-    print(fact_lines(replay_facts(replayed, unit.design)))
+    print(fact_lines(replay_facts(replayed, unit, unit.design)))
     return report_damage(recording)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from ..files.unit_file import Unit
 from ..physics import JointDesign
 from ..recordings.hints import hints
 from ..recordings.recording import Recording
@@ -13,13 +14,13 @@ from .load_text import setting_facts
 from .tables import Facts
 
 
-def replay_facts(replay: Replay, design: JointDesign) -> Facts:
-    """What the model says of a recording."""
+def replay_facts(replay: Replay, unit: Unit, design: JointDesign) -> Facts:
+    """What the model says of a recording of a unit, with a design of it."""
     summary = summary_of(replay)
     invalid = invalid_text(summary)
     return [
         *_recording_facts(replay.recording, summary),
-        *reading_facts(replay.recording, design),
+        *reading_facts(replay.recording, unit, design),
         *setting_facts(design, replay.load),
         ('estimation', replay.estimation),
         ('regimes', regimes_text(summary)),
@@ -28,11 +29,11 @@ def replay_facts(replay: Replay, design: JointDesign) -> Facts:
     ]
 
 
-def reading_facts(recording: Recording, design: JointDesign) -> Facts:
+def reading_facts(recording: Recording, unit: Unit, design: JointDesign) -> Facts:
     """How a recording was read, and what looks wrong with it."""
     return [
         *(('read', note) for note in recording.notes),
-        *(('warning', hint) for hint in hints(recording, design)),
+        *(('warning', hint) for hint in hints(recording, design, unit.settings.plausibility)),
     ]
 
 

@@ -80,7 +80,7 @@ def run(options: argparse.Namespace) -> int:
     replayed = replay_from(options, unit, design, recording)
     parts += [
         f'<h2>Recording, with {escape(of)}</h2>',
-        fact_table(replay_facts(replayed, design)),
+        fact_table(replay_facts(replayed, unit, design)),
         svg_of(
             lambda drawing: draw_replay(drawing, design, replayed),
             figure_recording.SIZE,
