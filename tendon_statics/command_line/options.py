@@ -37,7 +37,12 @@ def add_design_option(parser: argparse.ArgumentParser) -> None:
 
 def unit_from(options: argparse.Namespace) -> Unit:
     """Return the unit that ``--design`` names, or one of the installed default design."""
-    return load_unit(options.design or default_design_path(), _full_name(options.node))
+    return load_unit(*design_file_and_node(options))
+
+
+def design_file_and_node(options: argparse.Namespace) -> tuple[Path, str]:
+    """Return the design file, and the full name of the estimator in it, empty if not said."""
+    return Path(options.design or default_design_path()), _full_name(options.node)
 
 
 def design_name(options: argparse.Namespace) -> str:
