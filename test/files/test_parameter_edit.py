@@ -5,7 +5,6 @@ import pytest
 from tendon_statics.files.output_file import OutputError
 from tendon_statics.files.parameter_edit import edit_parameters
 
-
 OWN = '/estimator:\n  ros__parameters:\n    a:\n'
 EVERY = '/**:\n  ros__parameters: '
 
