@@ -87,7 +87,7 @@ def run(options: argparse.Namespace) -> int:
     replayed = replay_from(options, unit, unit.design, recording)
     if write is not None:
         write(options.output, replayed, with_progress)
-    print(fact_lines(replay_facts(replayed, unit.design)))
+    print(fact_lines(replay_facts(replayed, unit, unit.design)))
     return report_damage(recording)
 
 
@@ -96,6 +96,7 @@ def replay_from(
     unit: Unit,
     design: JointDesign,
     recording: Recording,
+    progress: Progress = with_progress,
 ) -> Replay:
     """Replay a recording as the options and the unit's file ask for, with a design of it."""
     return replay(
@@ -106,7 +107,7 @@ def replay_from(
         load=recorded_load(options, unit, recording),
         initial_bend_angle=initial_bend_angle_from(options, unit),
         tension_stddev=tension_stddev_from(options, unit),
-        progress=with_progress,
+        progress=progress,
     )
 
 
