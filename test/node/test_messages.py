@@ -6,6 +6,7 @@ import random
 
 import pytest
 from designs import PRELIMINARY
+from estimates import estimate_of
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from std_msgs.msg import Float64MultiArray, Header
 
@@ -31,8 +32,7 @@ def results(design):
 
 
 def estimate_in(message, result):
-    ends = [(0.1, 0.2)] * len(result.regime.value)
-    return messages.fill_estimate(message, result, result.bend_angle, ends, NOISE, Header())
+    return messages.fill_estimate(message, estimate_of(result), Header())
 
 
 @pytest.mark.skipif(bool(messages.INTERFACES_MISSING), reason=messages.INTERFACES_MISSING)

@@ -1,0 +1,275 @@
+"""``estimation: filtering``: with the memory of a `StickSlipFilter`, for load cells with noise."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from ..physics import Regime, TensionError, admissible_angles, slip_margin
+from ..physics.kept import kept
+from .estimate import Estimate, Interval, KnownLoad, Remark, Sample
+from .method import Method, within_stop
+from .settings import Settings
+
+if TYPE_CHECKING:
+    from ..physics import FilterState, StickSlipFilter
+
+UNEXPLAINED = 1e-8
+"""Consistency below which the model does not explain the measured angle: chance alone comes there
+less than once a day at 500 Hz"""
+
+FIRST_STEP = 0.001
+"""Time in s between two samples of which nothing is known"""
+
+BEYOND_STOP = 4.0
+"""Deviations by which a sensor may read beyond the stop of a unit that is there"""
+
+
+class FilteredEstimate(Estimate):
+    """Where a filter says that a unit is.
+
+    Parameters
+    ----------
+    measured : float
+        When the tensions were, in s.
+    consistency : float
+        Probability of the measured angles under the model, NaN if not known.
+    """
+
+    def __init__(
+        self,
+        state: FilterState,
+        known: KnownLoad,
+        settings: Settings,
+        measured: float,
+        consistency: float,
+    ) -> None:
+        tensions = (state.tension_l, state.tension_s)
+        super().__init__(known, settings, state.regime, tensions, state.bend_angle)
+        self.state = state
+        self.measured = measured
+        self.is_provisional = state.provisional
+        self.consistency = consistency
+        self._assured = state.angle_assured and known.is_assured
+
+    @property
+    def angle_assured(self) -> bool:
+        """Whether the unit cannot have moved unseen."""
+        return self._assured
+
+    @property
+    def bend_angle_stddev(self) -> float | None:
+        """Standard deviation of the angle in rad."""
+        return self.state.bend_angle_stddev if self._assured else None
+
+    @property
+    def interval(self) -> Interval | None:
+        """Interval that holds the angle with the confidence of the settings."""
+        return self.state.interval(self.settings.confidence) if self._assured else None
+
+    @property
+    def regime_probabilities(self) -> Mapping[Regime, float]:
+        """Probability of each regime."""
+        return self.state.regime_probabilities
+
+    @kept
+    def pressure(self) -> float | None:
+        """Median of the pressure in Pa."""
+        return self.state.pressure
+
+    @property
+    def pressure_stddev(self) -> float | None:
+        """Its standard deviation in Pa."""
+        return self.state.pressure_stddev
+
+    @kept
+    def slip_margin(self) -> float | None:
+        """M / K at the median of the angle, under these tensions, noise and all."""
+        if self.bend_angle is None:
+            return None
+        try:
+            return slip_margin(
+                self.design, self.tension_l, self.tension_s, self.bend_angle, self.load
+            )
+        except TensionError:  # smoothed tensions that do not seat the joint
+            return None
+
+    @kept
+    def admissible_angles(self) -> list[Interval]:
+        """Where friction can hold the unit under these tensions, noise and all."""
+        if self.regime is Regime.SLACK:
+            return []
+        try:
+            return admissible_angles(self.design, self.tension_l, self.tension_s, self.load)
+        except TensionError:
+            return []
+
+    @property
+    def branch_consistent(self) -> bool | None:
+        """Whether there is a pressure that the model stands behind."""
+        return None if self.bend_angle is None else self.pressure is not None
+
+    @property
+    def remarks(self) -> list[Remark]:
+        """What is not as it should be."""
+        found = super().remarks
+        if self.consistency < UNEXPLAINED:
+            found.append(Remark.UNEXPLAINED)
+        if not self._assured:
+            found.append(Remark.UNASSURED)
+        return found
+
+
+class Filtering(Method):
+    """Follows the unit, and takes each pair of tensions for a noisy reading."""
+
+    remembers = True
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__(settings)
+        self._here: FilterState | tuple[float, float] = (settings.initial_bend_angle, 0.0)
+        """Where the unit is: as the filter said, or angle and deviation that it was told"""
+        self._assured = True
+        self._filter = self._new_filter()
+        self._clock = _ForwardClock()
+        self._newest: FilteredEstimate | None = None
+        self._waiting: deque[tuple[float, float]] = deque()
+        """Of samples that are not committed: time of the filter, and when they were measured"""
+
+    @classmethod
+    def refusal(cls, settings: Settings) -> str:
+        """Return why it cannot work with settings: noise is what it is made for."""
+        if settings.tension_stddev > 0.0:
+            return ''
+        return (
+            f'tension_stddev is {settings.tension_stddev!r}, and estimation is filtering, which '
+            'needs the noise of each tension, above 0 N; tracking is for tensions without noise'
+        )
+
+    def _new_filter(self) -> StickSlipFilter:
+        """Return a filter of a unit that is where it was last."""
+        from ..physics import StickSlipFilter  # Here, for who only solves needs no NumPy.
+
+        settings, here = self.settings, self._here
+        if not isinstance(here, tuple):
+            assert here.bend_angle is not None
+            here = (here.bend_angle, float(here.members.std()))
+        found = StickSlipFilter(
+            settings.design,
+            bend_angle=within_stop(here[0], settings.design)[0],
+            bend_angle_stddev=here[1],
+            tension_stddev=settings.tension_stddev,
+            tension_bias_stddev=settings.tension_bias_stddev,
+            lag=settings.filter_lag,
+        )
+        if not self._assured:
+            found.doubt()
+        return found
+
+    @property
+    def _consistency(self) -> float:
+        """Probability of the measured angles under the model."""
+        return math.nan
+
+    def update(self, sample: Sample) -> FilteredEstimate:
+        """Follow the unit through a pair of tensions."""
+        time = self._clock.time(sample)
+        state = self._filter.update(*sample[:2], time, sample.known.load)
+        if state.bend_angle is not None:
+            self._here = state
+            self._waiting.append((time, sample.measured))
+        self._assured = state.angle_assured
+        self._newest = self._estimate(state, sample.known, sample.measured)
+        return self._newest
+
+    def imagine(self, sample: Sample) -> FilteredEstimate:
+        """Work out where a pair of tensions would take the unit."""
+        state = self._new_filter().update(*sample[:2], 0.0, sample.known.load)
+        return self._estimate(state, sample.known, sample.measured)
+
+    def again(self, sample: Sample) -> Estimate:
+        """Return the newest estimate, which has the samples before it in it."""
+        return self._newest or self.imagine(sample)
+
+    def _estimate(self, state: FilterState, known: KnownLoad, measured: float) -> FilteredEstimate:
+        return FilteredEstimate(state, known, self.settings, measured, self._consistency)
+
+    def take_committed(self) -> FilteredEstimate | None:
+        """Return the newest estimate that will not be taken back, once; tensions are smoothed."""
+        state = self._filter.committed
+        measured = None
+        while state is not None and self._waiting and self._waiting[0][0] <= state.time:
+            _, measured = self._waiting.popleft()
+        if state is None or measured is None:
+            return None
+        return self._estimate(state, KnownLoad(state.load), measured)
+
+    def change_settings(self, settings: Settings) -> str:
+        """Go on with other settings, from where the unit is; the samples before are forgotten."""
+        before, self.settings = self.settings, settings
+        if _made_of(settings) == _made_of(before):
+            return ''
+        angle = self._here[0] if isinstance(self._here, tuple) else self._here.bend_angle
+        assert angle is not None
+        _, said = within_stop(angle, settings.design)
+        self._assured = self._assured and not said
+        self._begin_anew(self._new_filter())
+        return said
+
+    def doubt(self) -> None:
+        """Take it that the unit may have moved unseen."""
+        self._filter.doubt()
+        self._assured = False
+        self._waiting.clear()  # They will not be committed.
+
+    def put(self, bend_angle: float) -> None:
+        """Put the unit to an angle in rad."""
+        self._filter.reset(bend_angle)
+        self._here, self._assured = (bend_angle, 0.0), True
+        self._begin_anew(self._filter)
+
+    def measure(self, bend_angle: float) -> None:
+        """Take an angle in rad that a sensor says; a little beyond the stop is at the stop."""
+        stddev = self.settings.measured_bend_angle_stddev
+        stop = self.settings.design.max_bend_angle
+        if stop < abs(bend_angle) <= stop + BEYOND_STOP * stddev:
+            bend_angle = math.copysign(stop, bend_angle)
+        self._filter.measure(bend_angle, stddev)
+        self._here, self._assured = (bend_angle, stddev), True
+        self._begin_anew(self._filter)
+
+    def _begin_anew(self, found: StickSlipFilter) -> None:
+        self._filter = found
+        self._newest = None
+        self._waiting.clear()
+
+
+class _ForwardClock:
+    """Times of samples for a filter, which only go forward, whatever their stamps do."""
+
+    def __init__(self) -> None:
+        self._time = 0.0
+        self._step = FIRST_STEP
+        self._before = (math.nan, math.nan)
+
+    def time(self, sample: Sample) -> float:
+        """Return the time of a sample in s: by its stamp, else by its arrival, else as before."""
+        now, measured = sample.time, sample.measured
+        now_before, measured_before = self._before
+        self._before = (now, measured)
+        for step in (measured - measured_before, now - now_before):
+            if step > 0.0:
+                self._step = step
+                break
+        self._time += self._step
+        return self._time
+
+
+def _made_of(settings: Settings) -> tuple[Any, ...]:
+    """What of the settings a filter is made of, or its samples are."""
+    return (
+        *(settings.design, settings.design_uncertainty, settings.scales, settings.filter_lag),
+        *(settings.tension_stddev, settings.tension_bias_stddev),
+    )
