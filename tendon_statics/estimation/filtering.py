@@ -152,14 +152,11 @@ class Filtering(Method):
         """Return a filter of a unit that is where it was last."""
         from ..physics import StickSlipFilter  # Here, for who only solves needs no NumPy.
 
-        settings, here = self.settings, self._here
-        if not isinstance(here, tuple):
-            assert here.bend_angle is not None
-            here = (here.bend_angle, float(here.members.std()))
+        settings, (angle, stddev) = self.settings, self._place
         found = StickSlipFilter(
             settings.design,
-            bend_angle=within_stop(here[0], settings.design)[0],
-            bend_angle_stddev=here[1],
+            bend_angle=within_stop(angle, settings.design)[0],
+            bend_angle_stddev=stddev,
             tension_stddev=settings.tension_stddev,
             tension_bias_stddev=settings.tension_bias_stddev,
             lag=settings.filter_lag,
@@ -167,6 +164,14 @@ class Filtering(Method):
         if not self._assured:
             found.doubt()
         return found
+
+    @property
+    def _place(self) -> tuple[float, float]:
+        """Angle in rad and deviation of where the unit is."""
+        if isinstance(self._here, tuple):
+            return self._here
+        assert self._here.bend_angle is not None
+        return self._here.bend_angle, float(self._here.members.std())
 
     @property
     def _consistency(self) -> float:
@@ -211,9 +216,7 @@ class Filtering(Method):
         before, self.settings = self.settings, settings
         if _made_of(settings) == _made_of(before):
             return ''
-        angle = self._here[0] if isinstance(self._here, tuple) else self._here.bend_angle
-        assert angle is not None
-        _, said = within_stop(angle, settings.design)
+        _, said = within_stop(self._place[0], settings.design)
         self._assured = self._assured and not said
         self._begin_anew(self._new_filter())
         return said
@@ -237,7 +240,9 @@ class Filtering(Method):
         if stop < abs(bend_angle) <= stop + BEYOND_STOP * stddev:
             bend_angle = math.copysign(stop, bend_angle)
         self._filter.measure(bend_angle, stddev)
-        self._here, self._assured = (bend_angle, stddev), True
+        if not self._assured or self._place[1] > stddev:
+            self._here = (bend_angle, stddev)
+        self._assured = True
         self._begin_anew(self._filter)
 
     def _begin_anew(self, found: StickSlipFilter) -> None:
