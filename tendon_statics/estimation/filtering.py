@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..physics import Regime, TensionError, admissible_angles, slip_margin
@@ -16,9 +16,12 @@ from .settings import Settings
 if TYPE_CHECKING:
     from ..physics import FilterState, StickSlipFilter
 
-UNEXPLAINED = 1e-8
+UNEXPLAINED = 1e-9
 """Consistency below which the model does not explain the measured angle: chance alone comes there
 less than once a day at 500 Hz"""
+
+MOST_WAITING = 100_000
+"""Samples whose times are kept until they are committed; at 10 kHz those of the longest lag"""
 
 FIRST_STEP = 0.001
 """Time in s between two samples of which nothing is known"""
@@ -135,7 +138,7 @@ class Filtering(Method):
         self._filter = self._new_filter()
         self._clock = _ForwardClock()
         self._newest: FilteredEstimate | None = None
-        self._waiting: deque[tuple[float, float]] = deque()
+        self._waiting: deque[tuple[float, float]] = deque(maxlen=MOST_WAITING)
         """Of samples that are not committed: time of the filter, and when they were measured"""
 
     @classmethod
@@ -180,6 +183,8 @@ class Filtering(Method):
 
     def update(self, sample: Sample) -> FilteredEstimate:
         """Follow the unit through a pair of tensions."""
+        for _ in self._committed_now():
+            pass  # Nobody wanted what the sample before has committed.
         time = self._clock.time(sample)
         state = self._filter.update(*sample[:2], time, sample.known.load)
         if state.bend_angle is not None:
@@ -201,15 +206,20 @@ class Filtering(Method):
     def _estimate(self, state: FilterState, known: KnownLoad, measured: float) -> FilteredEstimate:
         return FilteredEstimate(state, known, self.settings, measured, self._consistency)
 
-    def take_committed(self) -> FilteredEstimate | None:
-        """Return the newest estimate that will not be taken back, once; tensions are smoothed."""
-        state = self._filter.committed
-        measured = None
-        while state is not None and self._waiting and self._waiting[0][0] <= state.time:
-            _, measured = self._waiting.popleft()
-        if state is None or measured is None:
-            return None
-        return self._estimate(state, KnownLoad(state.load), measured)
+    def take_committed(self) -> list[Estimate]:
+        """Return the estimates that will not be taken back, each once; tensions are smoothed."""
+        found: list[Estimate] = []
+        for time, measured in self._committed_now():
+            state = self._filter.history(time)
+            if state is not None and state.time == time:
+                found.append(self._estimate(state, KnownLoad(state.load), measured))
+        return found
+
+    def _committed_now(self) -> Iterator[tuple[float, float]]:
+        """Times of samples that wait no longer, which are then forgotten."""
+        newest = self._filter.committed
+        while newest is not None and self._waiting and self._waiting[0][0] <= newest.time:
+            yield self._waiting.popleft()
 
     def change_settings(self, settings: Settings) -> str:
         """Go on with other settings, from where the unit is; the samples before are forgotten."""
@@ -243,7 +253,7 @@ class Filtering(Method):
         if not self._assured or self._place[1] > stddev:
             self._here = (bend_angle, stddev)
         self._assured = True
-        self._begin_anew(self._filter)
+        self._newest = None
 
     def _begin_anew(self, found: StickSlipFilter) -> None:
         self._filter = found

@@ -97,9 +97,12 @@ class Method(ABC):
         """
         self.put(bend_angle)
 
-    def take_committed(self) -> Estimate | None:
-        """Return the newest estimate that will not be taken back, once, where others may be."""
-        return None
+    def take_committed(self) -> list[Estimate]:
+        """Return the estimates that will not be taken back, each once, where others may be.
+
+        Those that the newest sample has committed.
+        """
+        return []
 
 
 def within_stop(bend_angle: float, design: JointDesign) -> tuple[float, str]:

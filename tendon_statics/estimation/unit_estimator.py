@@ -157,8 +157,8 @@ class UnitEstimator:
             method.doubt()
         return estimate
 
-    def take_committed(self) -> Estimate | None:
-        """Return the newest estimate that will not be taken back, once, where others may be."""
+    def take_committed(self) -> list[Estimate]:
+        """Return the estimates that will not be taken back, each once, where others may be."""
         return self._method.take_committed()
 
     # Where the unit is, by other means

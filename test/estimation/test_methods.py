@@ -59,15 +59,13 @@ def test_what_is_filtered_is_provisional_and_committed_a_lag_behind_with_its_own
     for place, pair in enumerate(near_slip(0.5, 0.02, 200)):
         estimate = unit.take(*pair, KNOWN, 7.0 + 0.002 * place, 100.0 + 0.002 * place)
         assert estimate.is_provisional
-        committed.append(unit.take_committed())
-        assert unit.take_committed() is None
-    assert committed[:45] == [None] * 45
-    there = {place: estimate for place, estimate in enumerate(committed) if estimate is not None}
-    assert len(there) > 70
-    for place, estimate in there.items():
+        committed += [(place, estimate) for estimate in unit.take_committed()]
+        assert unit.take_committed() == []
+    assert len(committed) > 70
+    for place, estimate in committed:
         assert not estimate.is_provisional
         assert 100.0 + 0.002 * place - estimate.measured == pytest.approx(0.1, abs=0.005)
-    assert unit_of('tracking').take_committed() is None
+    assert unit_of('tracking').take_committed() == []
 
 
 def test_the_interval_is_that_of_the_confidence_asked_for():

@@ -72,10 +72,10 @@ def filtered_estimates():
     for place, pair in enumerate([HELD] * 20 + [STOP] * 20 + [SLACK, HELD]):
         known = KnownLoad(UPRIGHT_LOAD, is_assured=place != 10)
         found.append(method.update(Sample(*pair, known, 0.01 * place, 0.01 * place)))
-        found.append(method.take_committed())
+        found += method.take_committed()
         if place == 15:
             method.measure(0.1)
-    return [estimate for estimate in found if estimate is not None]
+    return found
 
 
 def test_an_estimate_of_a_filter_has_band_and_probabilities_and_nothing_of_the_one_before():

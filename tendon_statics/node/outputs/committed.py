@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable
 
 from builtin_interfaces.msg import Time
 from rclpy.publisher import Publisher
 from std_msgs.msg import Header
 
+from ...estimation.filtering import MOST_WAITING
 from ...estimation.unit_estimator import UnitEstimator
 from . import messages
-
-MOST_WAITING = 100_000
-"""Stamps that are kept for estimates to come; at 10 kHz those of the longest lag"""
 
 
 class CommittedOutput:
@@ -23,7 +20,7 @@ class CommittedOutput:
         self._publisher = publisher
         self._message = messages.Estimate()
         self._header = Header(frame_id=frame_id)
-        self._stamps: deque[tuple[float, Time]] = deque(maxlen=MOST_WAITING)
+        self._stamps: dict[float, Time] = {}
 
     def publish(self, unit: UnitEstimator, measured: float, stamp: Callable[[], Time]) -> None:
         """Publish what is committed with the newest tensions, if somebody listens.
@@ -38,14 +35,12 @@ class CommittedOutput:
         if not self._publisher.handle.get_subscription_count() > 0:
             self._stamps.clear()
             return
-        self._stamps.append((measured, stamp()))
-        estimate = unit.take_committed()
-        if estimate is None:
-            return
-        while self._stamps:
-            of, its_stamp = self._stamps.popleft()
-            if of == estimate.measured:
+        self._stamps[measured] = stamp()
+        if len(self._stamps) > MOST_WAITING:  # of samples that were never committed
+            del self._stamps[next(iter(self._stamps))]
+        for estimate in unit.take_committed():
+            its_stamp = self._stamps.pop(estimate.measured, None)
+            if its_stamp is not None:
                 self._header.stamp = its_stamp
                 messages.fill_estimate(self._message, estimate, self._header)
                 self._publisher.publish(self._message)
-                return
