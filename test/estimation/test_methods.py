@@ -9,7 +9,8 @@ from designs import PRELIMINARY
 
 from tendon_statics import DesignUncertainty, Load, Regime, slip_angle_distribution, tensions_for
 from tendon_statics.estimation.estimate import KnownLoad, Remark
-from tendon_statics.estimation.filtering import UNEXPLAINED, Filtering
+from tendon_statics.estimation.filtered_estimate import UNEXPLAINED
+from tendon_statics.estimation.filtering import Filtering
 from tendon_statics.estimation.health import Level
 from tendon_statics.estimation.methods import METHODS
 from tendon_statics.estimation.settings import Settings
