@@ -50,9 +50,9 @@ def data(session, tmp_path):
 
 
 def test_each_sample_is_as_the_filter_says_it(session):
-    settings = Settings(PRELIMINARY, tension_stddev=NOISE, confidence=0.8, filter_lag=0.1)
+    settings = Settings(PRELIMINARY, tension_stddev=NOISE, confidence=0.8, filter_lag=0.095)
     found = replay(PRELIMINARY, session, 'filtering', settings=settings)
-    expected = StickSlipFilter(PRELIMINARY, tension_stddev=NOISE, lag=0.1)
+    expected = StickSlipFilter(PRELIMINARY, tension_stddev=NOISE, lag=0.095)
     time = 0.001
     for place, pair in enumerate(session.tensions()):
         state = expected.update(*pair, time)
