@@ -58,7 +58,7 @@ class Filtering(Method):
         settings, (angle, stddev) = self.settings, self._place
         found = StickSlipFilter(
             settings.design,
-            bend_angle=within_stop(angle, settings.design)[0],
+            bend_angle=angle,
             bend_angle_stddev=stddev,
             tension_stddev=settings.tension_stddev,
             tension_bias_stddev=settings.tension_bias_stddev,
@@ -126,7 +126,9 @@ class Filtering(Method):
         before, self.settings = self.settings, settings
         if _made_of(settings) == _made_of(before):
             return ''
-        _, said = within_stop(self._place[0], settings.design)
+        angle, stddev = self._place
+        angle, said = within_stop(angle, settings.design)
+        self._here = (angle, stddev)
         self._assured = self._assured and not said
         self._begin_anew(self._new_filter())
         return said
