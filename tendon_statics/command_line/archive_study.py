@@ -17,7 +17,7 @@ from ..recordings.hints import hints
 from ..recordings.plausible_fit import objections
 from ..recordings.progress import unseen
 from ..recordings.recording import Recording
-from ..recordings.replay.estimates import Replay
+from ..recordings.replay.result import Replay
 from ..recordings.replay.summary import summary_of
 from .calibration_options import add_calibration_options, calibration_from
 from .options import UsageError

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 
+from ..estimation.estimate import Remark
 from ..files.unit_file import Unit
 from ..physics import JointDesign
 from ..recordings.hints import hints
 from ..recordings.recording import Recording
-from ..recordings.replay.estimates import Replay
+from ..recordings.replay.result import Replay
 from ..recordings.replay.summary import ReplaySummary, summary_of
 from .load_text import setting_facts
 from .tables import Facts
@@ -24,8 +25,10 @@ def replay_facts(replay: Replay, unit: Unit, design: JointDesign) -> Facts:
         *setting_facts(design, replay.load),
         ('estimation', replay.estimation),
         ('regimes', regimes_text(summary)),
+        *_noise_facts(summary),
         *([('invalid', invalid)] if invalid else []),
         *_angle_facts(summary),
+        *_band_facts(summary, replay.confidence),
     ]
 
 
@@ -66,6 +69,25 @@ def regimes_text(summary: ReplaySummary) -> str:
 def invalid_text(summary: ReplaySummary) -> str:
     """Why samples are invalid, in the node's words; empty if none is."""
     return ', '.join(f'{reason} {count}' for reason, count in summary.invalid.items())
+
+
+def _noise_facts(summary: ReplaySummary) -> Facts:
+    """Whether believing each sample is safe."""
+    if not summary.noise_risks:
+        return []
+    return [('warning', f'{Remark.NOISE.value} ({summary.noise_risks} of {summary.samples})')]
+
+
+def _band_facts(summary: ReplaySummary, confidence: float) -> Facts:
+    """How wide the intervals are, and how often the measured angle lies within."""
+    band = summary.band
+    if band is None:
+        return []
+    title = f'{100.0 * confidence:.4g} % interval'
+    facts = [(title, f'{_degrees(band.width)} wide in the mean')]
+    if band.within is not None:
+        facts.append(('within it', f'{100.0 * band.within:.4g} % of the measured angles'))
+    return facts
 
 
 def _angle_facts(summary: ReplaySummary) -> Facts:

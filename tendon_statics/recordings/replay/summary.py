@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..recording import Recording
-from .estimates import VALID, Replay
+from .result import VALID, Replay
 
 
 class Pace(NamedTuple):
@@ -32,6 +32,15 @@ class AngleError(NamedTuple):
     largest: float | None
 
 
+class Band(NamedTuple):
+    """The intervals that are to hold the angle."""
+
+    width: float
+    """rad, in the mean"""
+    within: float | None
+    """Share of the measured angles that lie within; None without any"""
+
+
 class ReplaySummary(NamedTuple):
     """What the model says of a recording."""
 
@@ -50,6 +59,10 @@ class ReplaySummary(NamedTuple):
     """Those of them whose angle is not assured"""
     error: AngleError | None
     """None if no angle was measured"""
+    band: Band | None
+    """None unless filtered"""
+    noise_risks: int
+    """Samples at which noise alone could have slipped a tracked unit"""
 
 
 def summary_of(replay: Replay) -> ReplaySummary:
@@ -66,6 +79,8 @@ def summary_of(replay: Replay) -> ReplaySummary:
         int(known.sum()),
         int((known & ~replay.angle_assured).sum()),
         _angle_error(replay),
+        _band(replay),
+        replay.noise_risks,
     )
 
 
@@ -96,3 +111,17 @@ def _angle_error(replay: Replay) -> AngleError | None:
         float(np.median(error)),
         float(error.max()),
     )
+
+
+def _band(replay: Replay) -> Band | None:
+    if replay.interval is None:
+        return None
+    low, high = replay.interval
+    known = np.isfinite(low)
+    if not known.any():
+        return None
+    measured = replay.recording.bend_angle
+    within = None
+    if measured is not None and (both := known & np.isfinite(measured)).any():
+        within = float(np.mean(((low <= measured) & (measured <= high))[both]))
+    return Band(float(np.mean((high - low)[known])), within)
