@@ -86,7 +86,13 @@ def _band_facts(summary: ReplaySummary, confidence: float) -> Facts:
     title = f'{100.0 * confidence:.4g} % interval'
     facts = [(title, f'{_degrees(band.width)} wide in the mean')]
     if band.within is not None:
-        facts.append(('within it', f'{100.0 * band.within:.4g} % of the measured angles'))
+        facts.append(
+            (
+                'within it',
+                f'{100.0 * band.within:.4g} % of the measured angles, give or take two '
+                f'deviations of the sensor, {_degrees(band.sensor_spread)}',
+            )
+        )
     return facts
 
 

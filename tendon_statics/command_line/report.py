@@ -73,7 +73,9 @@ def run(options: argparse.Namespace) -> int:
         calibration = fit.calibration
         design, of = calibration.design or start, 'the fitted design'
         recording = corrected(recording, calibration.cells or AS_MEASURED)
-        if calibration.design is None:
+        if calibration.design is not None:
+            unit = unit.with_uncertainty(calibration.uncertainty)
+        else:
             of = f'{design_name(options)}, since the fit does not determine a design'
         facts = [('start', design_name(options)), *assumed_facts(options, recording)]
         fitted = _calibration_part(fit, recording, facts)

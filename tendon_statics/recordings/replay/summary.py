@@ -38,7 +38,9 @@ class Band(NamedTuple):
     width: float
     """rad, in the mean"""
     within: float | None
-    """Share of the measured angles that lie within; None without any"""
+    """Share of the measured angles that lie within, give or take that; None without any"""
+    sensor_spread: float
+    """rad; two deviations of a measured angle"""
 
 
 class ReplaySummary(NamedTuple):
@@ -121,7 +123,8 @@ def _band(replay: Replay) -> Band | None:
     if not known.any():
         return None
     measured = replay.recording.bend_angle
-    within = None
+    within, spread = None, 2.0 * replay.measured_stddev
     if measured is not None and (both := known & np.isfinite(measured)).any():
-        within = float(np.mean(((low <= measured) & (measured <= high))[both]))
-    return Band(float(np.mean((high - low)[known])), within)
+        inside = (low - spread <= measured) & (measured <= high + spread)
+        within = float(np.mean(inside[both]))
+    return Band(float(np.mean((high - low)[known])), within, spread)
