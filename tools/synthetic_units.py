@@ -1,4 +1,4 @@
-"""Makes the tests' brute force and its sessions known to the tools that measure against them."""
+"""Makes the tests' brute force and sessions known to the tools that measure against them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 TESTS = Path(__file__).resolve().parents[1] / 'test'
-sys.path[:0] = [str(TESTS), str(TESTS / 'support')]
+sys.path.insert(0, str(TESTS / 'support'))
 
 
 def run_all(work: Callable[[Any], Any], jobs: Sequence[Any], workers: int) -> Iterable[Any]:

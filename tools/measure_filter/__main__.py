@@ -78,7 +78,7 @@ def main() -> int:
     everything = [one for of_kind in scores.values() for one in of_kind]
     rows = [(kind, *_row(of_kind)) for kind, of_kind in scores.items()]
     rows.append(('all', *_row(everything)))
-    titles = ('sessions', 'covered [%]:', 'least [%]:', 'width [deg]:', 'off [%]:')
+    titles = ('kind', 'covered [%]:', 'least [%]:', 'width [deg]:', 'off [%]:')
     print(markdown_table((*titles, 'off, committed [%]:', 'off, tracker [%]:'), rows))
     print(f'\n{options.sessions} sessions of {options.seconds:g} s, seed {options.seed}')
     return 0

@@ -20,7 +20,7 @@ from tendon_statics.physics import UPRIGHT, design_parameters, residual
 
 ANGLE_TOLERANCE = 1e-9
 PRESSURE_TOLERANCE = 1e-9
-REFERENCE = Path(__file__).with_name('data') / 'reference_cases.csv'
+REFERENCE = Path(__file__).parents[1] / 'data' / 'reference_cases.csv'
 
 
 def reference_cases():
