@@ -26,7 +26,10 @@ MOVED = 5.0
 """Deviations of the angle from its mean while at rest, above which it has moved"""
 
 AT_REST = 5
-"""Readings in a row near their mean after which a unit is at rest again"""
+"""Readings whose mean, beside that of as many before them, tells whether a unit rests"""
+
+STILL = 2.0
+"""Deviations that the two means may differ by"""
 
 _NORMAL = NormalDist()
 
@@ -49,7 +52,7 @@ class Consistency:
         self._overdriven = -math.inf
         self._mean = math.nan
         self._count = 0
-        self._newest: deque[float] = deque(maxlen=AT_REST)
+        self._newest: deque[float] = deque(maxlen=2 * AT_REST)
         self._moves = False
 
     @property
@@ -93,11 +96,14 @@ class Consistency:
         self._count += 1
         self._mean += change / self._count
         self._newest.append(bend_angle)
-        if len(self._newest) == AT_REST:
+        if len(self._newest) < 2 * AT_REST:
+            return
+        # Of the newest alone, since a unit that slides slowly seems to rest where it was.
+        newest = list(self._newest)
+        before, angle = sum(newest[:AT_REST]) / AT_REST, sum(newest[AT_REST:]) / AT_REST
+        rest = stddev / math.sqrt(AT_REST)
+        if abs(angle - before) <= STILL * math.sqrt(2.0) * rest:
             self._moves = False
-            # Of the newest alone, since a unit that slides slowly seems to rest where it was.
-            angle = sum(self._newest) / AT_REST
-            rest = stddev / math.sqrt(AT_REST)
             self._overdriven = max(
                 self._excess(slip.facing(side), errors, rest, side * angle)
                 for side in (1.0, -1.0)
