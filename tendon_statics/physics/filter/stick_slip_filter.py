@@ -16,6 +16,7 @@ from ..design import JointDesign
 from ..load import UPRIGHT, DeadLoad, Load
 from ..state import Regime
 from ..tensions import Tensions, check_tensions, taut_slip
+from .consistency import Consistency
 from .members import follow, slips_of
 from .smoothing import REACH, SampleBuffer, Windows
 from .state import FilterState
@@ -43,6 +44,14 @@ class _Sample:
     time: float
     load: Load
     dead: DeadLoad
+
+
+@dataclass
+class _Reading:
+    time: float
+    bend_angle: float
+    stddev: float
+    age: int = 0
 
 
 class StickSlipFilter:
@@ -109,6 +118,7 @@ class StickSlipFilter:
         self._biases = tension_bias_stddev * np.array(
             [random.permutation(self._scores), random.permutation(self._scores)]
         )
+        self._bias_stddev = tension_bias_stddev
         self._windows: dict[tuple[int, tuple[int, ...]], Windows] = {}
         self.reset(bend_angle, bend_angle_stddev)
 
@@ -125,6 +135,7 @@ class StickSlipFilter:
         self._committed = np.clip(angle + stddev * self._other_scores, -stop, stop)
         self._newest = self._committed
         self._assured = True
+        self._consistency = Consistency(stop, self._design.relative_lever)
         self._forget_samples()
         self._history: deque[FilterState] = deque(maxlen=HISTORY)
 
@@ -176,8 +187,12 @@ class StickSlipFilter:
             # What was before cannot tell what the tensions are now.
             self._committed = self._newest
             self._forget_samples()
-        self._buffer.append(tensions, REACH + len(self._samples))
+        for reading in self._readings:
+            reading.age += 1
+        kept = max(len(self._samples), self._readings[0].age if self._readings else 0)
+        self._buffer.append(tensions, REACH + kept)
         self._samples.append(_Sample(time, load, load.on(self._design)))
+        self._judge_readings(time - self._lag, load)
         settled = sum(sample.time <= time - self._lag for sample in self._samples)
         ages = [*range(len(self._samples) - 1, len(self._samples) - 1 - settled, -1)]
         waiting = len(self._samples) - settled
@@ -278,7 +293,39 @@ class StickSlipFilter:
             self._newest = np.clip(readings, -stop, stop)
         self._committed = self._newest
         self._assured = True
+        if self._samples:
+            self._readings.append(_Reading(self._samples[-1].time, angle, stddev))
         self._samples.clear()
+
+    def _judge_readings(self, until: float, load: Load) -> None:
+        """Hold measured angles up to a time in s against tensions that are settled by now."""
+        while self._readings and self._readings[0].time <= until:
+            reading = self._readings.popleft()
+            count = min(len(self._buffer), REACH + reading.age)
+            if reading.age >= count:
+                continue
+            windows = self._windows_at(count, (reading.age,))
+            estimate = windows.estimate(self._buffer.newest(count), self._stddev)
+            tensions = Tensions(*estimate.value[:, 0].tolist())
+            if min(tensions) <= 0.0:
+                continue
+            errors = np.hypot(CAUTION * estimate.error[:, 0], self._bias_stddev)
+            error_l, error_s = errors.tolist()
+            self._consistency.take(
+                reading.bend_angle,
+                reading.stddev,
+                taut_slip(self._design, tensions, load),
+                (error_l, error_s),
+            )
+
+    @property
+    def consistency(self) -> float:
+        """Probability of the newest measured angles under the model; NaN while there are none.
+
+        Low where the model cannot explain them: a wrong friction coefficient, a bias, a sign. A
+        unit that rests within the boundary of slip says nothing.
+        """
+        return self._consistency.probability
 
     @property
     def committed(self) -> FilterState | None:
@@ -293,6 +340,7 @@ class StickSlipFilter:
     def _forget_samples(self) -> None:
         self._samples: deque[_Sample] = deque()  # those that are not committed
         self._buffer = SampleBuffer(2)
+        self._readings: deque[_Reading] = deque()  # that are not judged
 
 
 _TOWARDS_S = np.array([-1.0, 1.0])[:, None, None]
