@@ -33,7 +33,8 @@ CONFIDENCES = np.array([4.0, 4.0, 3.5, 3.0, 2.5, 2.25, 2.0, 2.0, 2.0])
 more narrow windows in a second, so that chance has the more to offer: a rest is not to be torn
 apart by the one sample in thousands that lies far out"""
 
-_AROUND, _BEFORE, _AFTER, _LINE_BEFORE, _LINE_AFTER = range(5)
+_AROUND, _LINES = 0, slice(3, 5)
+"""Kinds of windows: around, before, after, and lines before and after"""
 
 
 class Estimate(NamedTuple):
@@ -56,42 +57,46 @@ class Windows:
     """
 
     def __init__(self, count: int, ages: NDArray[np.intp]) -> None:
-        place = (count - 1 - ages)[:, None]
-        after, before = ages[:, None], place
-        full, half = SIZES - 1, (SIZES - 1) // 2
-        nothing = np.zeros_like(place + full)
-        reach = np.array(
-            [
-                [half + nothing, half + nothing],
-                [full + nothing, nothing],
-                [nothing, full + nothing],
-                [full + nothing, nothing],
-                [nothing, full + nothing],
-            ]
-        )  # kind, side, place, size
-        left, right = reach[:, 0], reach[:, 1]
-        there = (left <= before) & (right <= after)
-        there[_AROUND] &= SIZES % 2 == 1
-        there[[_LINE_BEFORE, _LINE_AFTER]] &= SIZES >= 3
-        there[:, :, 0] = True  # the sample itself
+        place = count - 1 - ages
+        sizes = SIZES[:, None]
+        full, half = sizes - 1, (sizes - 1) // 2
+        nothing = np.zeros_like(full)
+        # size, kind, place
+        left = np.stack([half, full, nothing, full, nothing], axis=1) + 0 * ages
+        right = np.stack([half, nothing, full, nothing, full], axis=1) + 0 * ages
+        there = (left <= place) & (right <= ages)
+        there[:, _AROUND] &= sizes % 2 == 1
+        there[:, _LINES] &= sizes[..., None] >= 3
+        there[0] = True  # the sample itself
         left, right = np.where(there, left, 0), np.where(there, right, 0)
-        self._first = place - left
-        self._end = place + right + 1
-        size = (self._end - self._first).astype(float)
+        first, end = place - left, place + right + 1
+        size = (end - first).astype(float)
+        middle = 0.5 * (first + end - 1)
         lined = np.zeros(size.shape, bool)
-        lined[[_LINE_BEFORE, _LINE_AFTER]] = size[[_LINE_BEFORE, _LINE_AFTER]] >= 3
-        middle = 0.5 * (self._first + self._end - 1)
+        lined[:, _LINES] = size[:, _LINES] >= 3
         offset = np.where(lined, place - middle, 0.0)
-        spread = size * (size * size - 1.0) / 12.0  # Σ (k − middle)²
-        spread[size < 2] = 1.0
-        self._middle = middle
-        self._size = size
-        self._tilt = offset / spread
-        error = np.sqrt(1.0 / size + offset * offset / spread)
-        self._error = np.where(there, error, np.inf)
-        self._half_width = CONFIDENCES * self._error
-        self._kinds, self._places = np.ogrid[0:5, 0 : len(ages)]
-        self._place_numbers = np.arange(len(ages))
+        spread = np.where(size > 1, size * (size * size - 1.0) / 12.0, 1.0)  # Σ (k − middle)²
+        tilt = offset / spread
+        # A value is a sum over the window plus a sum of samples times their numbers.
+        self._of_sums = np.array([1.0 / size - tilt * middle, tilt])[:, None]
+        self._first, self._end = first, end
+        error = np.where(there, np.sqrt(1.0 / size + offset * tilt), np.inf)
+        self._half_width = CONFIDENCES[:, None, None] * error
+        self._numbers = np.arange(count)
+
+        # Where the n narrowest sizes agree, the one before the widest of them that is there.
+        taken = np.zeros((len(SIZES) + 1, *there.shape[1:]), np.intp)
+        widest, before = taken[0].copy(), taken[0].copy()
+        for number, is_there in enumerate(there):
+            before, widest = (
+                np.where(is_there, widest, before),
+                np.where(is_there, number, widest),
+            )
+            taken[number + 1] = before
+        kinds, places = np.ogrid[0 : taken.shape[1], 0 : taken.shape[2]]
+        self._taken = np.ravel_multi_index((taken, kinds, places), size.shape)
+        self._kinds, self._places = kinds, places
+        self._error = error.reshape(-1)
 
     def estimate(self, samples: Floats, stddev: float) -> Estimate:
         """Estimate signals at the places.
@@ -108,28 +113,26 @@ class Windows:
         Estimate
             Of shape ``(signals, places)``.
         """
+        signals, count = samples.shape
         base = samples[:, -1:]
+        sums = np.zeros((2, signals, count + 1))
         centred = samples - base
-        numbers = np.arange(samples.shape[1])
-        sums = np.zeros((2, samples.shape[0], samples.shape[1] + 1))
         np.cumsum(centred, axis=1, out=sums[0, :, 1:])
-        np.cumsum(centred * numbers, axis=1, out=sums[1, :, 1:])
-        total, moment = sums[:, :, self._end] - sums[:, :, self._first]
-        value: Any = total / self._size + self._tilt * (moment - self._middle * total)
+        np.cumsum(centred * self._numbers, axis=1, out=sums[1, :, 1:])
+        within = sums.take(self._end, axis=-1) - sums.take(self._first, axis=-1)
+        within *= self._of_sums
+        value = within[0] + within[1]
+        # Of each kind, up to which size the intervals have a point in common.
         half_width = stddev * self._half_width
-        # Of each kind, how far the intervals have a point in common, from narrow to wide.
-        with np.errstate(invalid='ignore'):
-            lowest = np.maximum.accumulate(value - half_width, axis=-1)
-            highest = np.minimum.accumulate(value + half_width, axis=-1)
-        agreeing = np.logical_and.accumulate(lowest <= highest, axis=-1)
-        error = np.where(agreeing, self._error, np.inf)
-        shape = (samples.shape[0], len(self._place_numbers), -1)
-        error = np.moveaxis(error, 1, 2).reshape(shape)
-        value = np.moveaxis(value, 1, 2).reshape(shape)
-        best = np.argmin(error, axis=-1)[..., None]
+        lowest = np.maximum.accumulate(value - half_width, axis=1)
+        highest = np.minimum.accumulate(value + half_width, axis=1)
+        agreeing = (lowest <= highest).sum(axis=1)
+        taken = self._taken[agreeing, self._kinds, self._places]
+        best = self._error[taken].argmin(axis=1)
+        series = np.arange(signals)[:, None]
+        taken = taken[series, best, self._places[0]]
         return Estimate(
-            np.take_along_axis(value, best, -1)[..., 0] + base,
-            stddev * np.take_along_axis(error, best, -1)[..., 0],
+            value.reshape(signals, -1)[series, taken] + base, stddev * self._error[taken]
         )
 
 
