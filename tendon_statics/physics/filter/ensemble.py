@@ -22,7 +22,7 @@ MEMBERS = 39
 """Possible units that are followed. The truth is as likely to be beyond the extremes as one more
 member, so that these enclose 38 of 40: 95 %"""
 
-CAUTION = 1.5
+CAUTION = 1.25
 """By how much the standard errors are taken for larger, since windows also are a little wrong"""
 
 _TOWARDS_S = np.array([-1.0, 1.0])[:, None, None]
@@ -72,9 +72,7 @@ class Ensemble:
     def angles(self, bend_angle: float, stddev: float) -> Floats:
         """Return an angle of each member, spread about one in rad and within its stops."""
         stop = self.stop
-        angles: Floats = np.minimum(
-            np.maximum(bend_angle + stddev * self._spread, -stop), stop
-        )
+        angles: Floats = np.minimum(np.maximum(bend_angle + stddev * self._spread, -stop), stop)
         return angles
 
     def dead_load(self, loads: list[Load]) -> DeadLoad:

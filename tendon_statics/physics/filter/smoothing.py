@@ -5,9 +5,17 @@ the mean of the samples for a signal at rest, and before and after with a straig
 that moves. Wider ones have the smaller standard error, and are wrong where the signal bends within
 them. So of each kind the widest is taken with which the confidence intervals of all narrower ones
 still have a point in common (the rule of intersecting confidence intervals: Goldenshluger and
-Nemirovski, 1997; Katkovnik, 1999, with windows to one side). Of the five the one with the smallest
-standard error is the estimate. Next to a corner that is a window that ends there: the mean of a
-rest right after a step is as good as in its midst.
+Nemirovski, 1997; Katkovnik, 1999, with windows to one side). By that rule bias may grow to twice
+the standard error before it is noticed. So the estimate is the window one size narrower, where a
+bias is a quarter of that or a half; and its error is the standard error together with the distance
+between the two, which tells of the bias that is left. Of the five kinds the one with the smallest
+error is taken. Next to a corner that is a window that ends there: the mean of a rest right after a
+step is as good as in its midst.
+
+A line that comes up to a corner is believed for a little too long, since a few samples beyond it do
+not tell; and a unit would slip for each time that a ramp is seen to go on. But a signal does not
+jump. So where windows before and after a place say different things, it bends between two straight
+pieces that meet, and is the lower of the two where it bends down, the higher where it bends up.
 
 Samples are counted, not timed: they are taken to follow each other at a steady rate.
 """
@@ -35,6 +43,7 @@ apart by the one sample in thousands that lies far out"""
 
 _AROUND, _LINES = 0, slice(3, 5)
 """Kinds of windows: around, before, after, and lines before and after"""
+_BEFORE, _AFTER = np.array([1, 3]), np.array([2, 4])
 
 
 class Estimate(NamedTuple):
@@ -42,7 +51,7 @@ class Estimate(NamedTuple):
 
     value: Floats
     error: Floats
-    """Standard error in units of the standard deviation of a sample"""
+    """Standard error, in the unit of the samples"""
 
 
 class Windows:
@@ -77,25 +86,29 @@ class Windows:
         offset = np.where(lined, place - middle, 0.0)
         spread = np.where(size > 1, size * (size * size - 1.0) / 12.0, 1.0)  # Σ (k − middle)²
         tilt = offset / spread
-        # A value is a sum over the window plus a sum of samples times their numbers.
-        self._of_sums = np.array([1.0 / size - tilt * middle, tilt])[:, None]
+        # A value takes so much of the sum over the window and of that of samples times numbers,
+        self._of_sums = np.array([1.0 / size - tilt * middle, tilt])
+        # and the slope of a line so much.
+        self._slope_of_sums = (
+            np.where(lined, 1.0 / spread, 0.0) * np.array([-middle, 1.0 + 0.0 * middle])
+        ).reshape(2, -1)
         self._first, self._end = first, end
         error = np.where(there, np.sqrt(1.0 / size + offset * tilt), np.inf)
         self._half_width = CONFIDENCES[:, None, None] * error
         self._numbers = np.arange(count)
 
-        # Where the n narrowest sizes agree, the one before the widest of them that is there.
-        taken = np.zeros((len(SIZES) + 1, *there.shape[1:]), np.intp)
-        widest, before = taken[0].copy(), taken[0].copy()
+        # Where the n narrowest sizes agree: the widest of them that is there, and that before.
+        widest = np.zeros((len(SIZES) + 1, *there.shape[1:]), np.intp)
+        taken = widest.copy()
         for number, is_there in enumerate(there):
-            before, widest = (
-                np.where(is_there, widest, before),
-                np.where(is_there, number, widest),
-            )
-            taken[number + 1] = before
-        kinds, places = np.ogrid[0 : taken.shape[1], 0 : taken.shape[2]]
-        self._taken = np.ravel_multi_index((taken, kinds, places), size.shape)
-        self._kinds, self._places = kinds, places
+            widest[number + 1] = np.where(is_there, number, widest[number])
+            taken[number + 1] = np.where(is_there, widest[number], taken[number])
+        self._kinds, self._places = np.ogrid[0 : taken.shape[1], 0 : taken.shape[2]]
+        self._widest, self._taken = (
+            np.ravel_multi_index((one, self._kinds, self._places), size.shape)
+            for one in (widest, taken)
+        )
+        self._at = self._places[0]
         self._error = error.reshape(-1)
 
     def estimate(self, samples: Floats, stddev: float) -> Estimate:
@@ -119,21 +132,51 @@ class Windows:
         centred = samples - base
         np.cumsum(centred, axis=1, out=sums[0, :, 1:])
         np.cumsum(centred * self._numbers, axis=1, out=sums[1, :, 1:])
-        within = sums.take(self._end, axis=-1) - sums.take(self._first, axis=-1)
-        within *= self._of_sums
-        value = within[0] + within[1]
+        within = sums.take(self._end, axis=-1)
+        within -= sums.take(self._first, axis=-1)
+        value = within[0] * self._of_sums[0]
+        value += within[1] * self._of_sums[1]
         # Of each kind, up to which size the intervals have a point in common.
         half_width = stddev * self._half_width
         lowest = np.maximum.accumulate(value - half_width, axis=1)
         highest = np.minimum.accumulate(value + half_width, axis=1)
         agreeing = (lowest <= highest).sum(axis=1)
         taken = self._taken[agreeing, self._kinds, self._places]
-        best = self._error[taken].argmin(axis=1)
+        widest = self._widest[agreeing, self._kinds, self._places]
         series = np.arange(signals)[:, None]
-        taken = taken[series, best, self._places[0]]
-        return Estimate(
-            value.reshape(signals, -1)[series, taken] + base, stddev * self._error[taken]
-        )
+        values = value.reshape(signals, -1)
+        value = values[series[..., None], taken]
+        error = np.hypot(stddev * self._error[taken], values[series[..., None], widest] - value)
+        which = series, self._best(within.reshape(2, signals, -1), taken, value, error), self._at
+        return Estimate(value[which] + base, error[which])
+
+    def _best(
+        self, within: Floats, taken: NDArray[np.intp], value: Floats, error: Floats
+    ) -> NDArray[np.intp]:
+        """Return which kind of window is taken at each place.
+
+        Parameters
+        ----------
+        within : ndarray
+            Sums over all windows, shape ``(2, signals, windows)``.
+        taken, value, error : ndarray
+            Of each kind the window, and what it says, shape ``(signals, kinds, places)``.
+        """
+        series, at = np.arange(len(value))[:, None], self._at
+        before = _BEFORE[error[:, _BEFORE].argmin(axis=1)]
+        after = _AFTER[error[:, _AFTER].argmin(axis=1)]
+        ends = (series, before, at), (series, after, at)
+        change = value[ends[1]] - value[ends[0]]
+        slopes = []
+        for end in ends:
+            window = taken[end]
+            of_sums = self._slope_of_sums[:, window]
+            slopes.append((within[:, series, window] * of_sums).sum(axis=0))
+        bend = slopes[1] - slopes[0]
+        corner = (abs(change) > np.hypot(error[ends[0]], error[ends[1]])) & (bend != 0.0)
+        met = np.where((change > 0.0) == (bend < 0.0), before, after)
+        best: NDArray[np.intp] = np.where(corner, met, error.argmin(axis=1))
+        return best
 
 
 class SampleBuffer:
