@@ -98,7 +98,7 @@ def sessions(count: int, seconds: float, seed: int) -> Iterator[Session]:
 def session(
     unit: str, program: str, noise: float, rate: float, seconds: float, random: np.random.Generator
 ) -> Session:
-    """Return one random session."""
+    """Return one random session, of `PROGRAMS` or of strokes from side to side."""
     design, weak = UNITS[unit]
     drive = _drive(design, weak, program, rate, seconds, random)
     tension_l, tension_s = weak + np.maximum(-drive, 0.0), weak + np.maximum(drive, 0.0)
@@ -125,13 +125,17 @@ def _drive(
 ) -> Floats:
     """By how much the stronger cable exceeds the weaker in N, positive for cable s."""
     count = int(seconds * rate)
-    first, last = sorted(_slip_tension(design, weak, share) for share in (0.0, 0.95))
+    first, last = sorted(slip_tension(design, weak, share) for share in (0.0, 0.95))
     if program == 'cycles':
         height = (last - weak) * random.uniform(1.0, 1.12)
         phase = 2.0 * math.pi * np.arange(count) / rate / random.uniform(1.5, 5.0)
         return height * np.sin(phase)
-    parts, now = [np.zeros(1)], 0.0
+    parts, now, turn = [np.zeros(1)], 0.0, 1.0
     while sum(map(len, parts)) < count:
+        if program == 'strokes':
+            now = _stroke(parts, now, turn * _slipping(weak, first, last, random), rate, random)
+            turn = -turn
+            continue
         level = _level(design, weak, first, last, random)
         longest = 2.0 if program == 'ramps' else 0.05
         way = (
@@ -146,11 +150,26 @@ def _drive(
     return np.concatenate(parts)[:count]
 
 
+def _stroke(
+    parts: list[Floats], now: float, level: float, rate: float, random: np.random.Generator
+) -> float:
+    """Append a ramp to a level and a rest; return the level."""
+    steps = int(random.uniform(0.3, 1.0) * rate)
+    parts.append(now + (level - now) * np.arange(1, steps + 1) / steps)
+    parts.append(np.full(int(random.uniform(0.1, 0.6) * rate), level))
+    return level
+
+
+def _slipping(weak: float, first: float, last: float, random: np.random.Generator) -> float:
+    """A drive in N with which the unit slips to some angle on its way, or to its stop."""
+    return float(random.uniform(1.02 * first, 1.1 * last) - weak)
+
+
 def _level(
     design: JointDesign, weak: float, first: float, last: float, random: np.random.Generator
 ) -> float:
     """Where a ramp or a step ends: 1 to 10 % below slip, beyond it, or anywhere before it."""
-    onset = _slip_tension(design, weak, 0.0)
+    onset = slip_tension(design, weak, 0.0)
     kind = random.random()
     if kind < 0.35:
         strong = onset * (1.0 - random.uniform(0.01, 0.10))
@@ -161,7 +180,7 @@ def _level(
     return float(random.choice([-1.0, 1.0]) * max(strong - weak, 0.0))
 
 
-def _slip_tension(design: JointDesign, weak: float, share: float) -> float:
+def slip_tension(design: JointDesign, weak: float, share: float) -> float:
     """Tension of the stronger cable in N at which the unit slips at a share of its stop."""
     low, high = weak, 30.0 * weak
     for _ in range(60):

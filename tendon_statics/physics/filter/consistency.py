@@ -67,6 +67,8 @@ class Score(NamedTuple):
     value: float = 0.0
     shared: float = 0.0
     """Share of the variance that all scores have in common: of bias and design"""
+    deviation: float = math.nan
+    """One deviation, as a change in N of the tension of the cable ahead"""
 
 
 class _Group(NamedTuple):
@@ -76,6 +78,12 @@ class _Group(NamedTuple):
     mean: float
     error: float
     """Standard error of the mean"""
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether the unit did not jump in between, so that the mean is a place where it was."""
+        angles = [one.bend_angle for one in self.readings]
+        return max(angles) - min(angles) <= MOVED * self.readings[0].stddev
 
     @classmethod
     def of(cls, readings: Sequence[Reading]) -> _Group:
@@ -176,36 +184,47 @@ class Consistency:
 
     def _onset(self, rest: _Group, side: float) -> Score:
         """How far beyond the boundary a unit was before it slipped, or short of it until then."""
-        beyond = self._overdriven(self._groups[0], side)
-        return beyond if beyond.value > 0.0 else self._short(list(self._groups), rest, side)
+        readings = [one for group in self._groups for one in group.readings]
+        left = [
+            side * (one.bend_angle - rest.mean) > MOVED * math.hypot(one.stddev, rest.error)
+            for one in readings
+        ]
+        # A unit that jumps is seen to leave; of one that slides away it is not sure when it left.
+        first = left.index(True) if True in left else len(readings) - 1
+        before = readings[max(first - 2, 0) : first] if True in left else readings[:TOGETHER]
+        if before:
+            group = _Group.of(before)
+            beyond = self._overdriven(group, side)
+            if beyond.value > 0.0:
+                return beyond
+        return self._short(readings[: first + 1], rest, side)
 
     def _landing(self, group: _Group, side: float) -> Score:
         """How far beyond the boundary a unit stops that has slipped, or short of it."""
+        if not group.is_steady:
+            return Score()
         beyond = self._overdriven(group, side)
-        return beyond if beyond.value > 0.0 else self._short(list(self._groups)[-3:], group, side)
+        readings = [one for part in list(self._groups)[-3:] for one in part.readings]
+        return beyond if beyond.value > 0.0 else self._short(readings, group, side)
 
     def _overdriven(self, group: _Group, side: float) -> Score:
-        """How far beyond the boundary a group is; nothing against a stop."""
+        """How far beyond the boundary a group is; nothing against a stop, or while it jumps."""
         spread = MOVED * group.readings[0].stddev
-        if side * group.mean > self._design.max_bend_angle - spread:
+        if not group.is_steady or side * group.mean > self._design.max_bend_angle - spread:
             return Score()
         return self._score([(one, one.bend_angle) for one in group.readings], side, group.error)
 
-    def _short(self, groups: list[_Group], place: _Group, side: float) -> Score:
-        """How far short of the boundary a unit remains at a place, whenever it was; 0 if not."""
-        scores = [
-            self._score([(one, place.mean)], side, place.error)
-            for group in groups
-            for one in group.readings
-        ]
-        return min(max(scores), Score())
+    def _short(self, readings: list[Reading], place: _Group, side: float) -> Score:
+        """How far short of the boundary a unit at a place remains at all of these readings."""
+        nearest = max(self._score([(one, place.mean)], side, place.error) for one in readings)
+        return nearest if nearest.value < 0.0 else Score()
 
     def _score(
         self, places: Sequence[tuple[Reading, float]], side: float, angle_error: float
     ) -> Score:
         """Return the mean slip function of readings at angles in rad, in deviations."""
         stop, lever = self._design.max_bend_angle, self._design.relative_lever
-        excess = noise = bias = slope = 0.0
+        excess = noise = bias = slope = ahead = 0.0
         for reading, angle in places:
             slip = taut_slip(self._design, reading.tensions, reading.load, side)
             point = slip.at(min(max(side * angle, -stop), stop))
@@ -215,12 +234,14 @@ class Consistency:
             slope += point.slope
             noise += math.hypot(by[0] * of_behind, by[1] * of_ahead)
             bias += math.hypot(*by)
+            ahead += abs(by[1])
         # Tensions of one time have much of their noise in common, so that its mean is no smaller.
         own = noise**2 + (slope * angle_error) ** 2
         shared = (bias * self._bias_stddev) ** 2
         if self._uncertainty is not None and excess**2 > own + shared:
             shared += len(places) ** 2 * self._by_design(*places[-1], side)
-        return Score(excess / math.sqrt(own + shared), shared / (own + shared))
+        deviation = math.sqrt(own + shared)
+        return Score(excess / deviation, shared / deviation**2, deviation / ahead)
 
     def _by_design(self, reading: Reading, angle: float, side: float) -> float:
         """Variance of the slip function from the design's own."""

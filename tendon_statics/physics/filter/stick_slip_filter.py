@@ -18,7 +18,7 @@ from ..errors import TensionError
 from ..state import Regime
 from ..tensions import Tensions, check_tensions, taut_slip
 from .consistency import Consistency, Reading
-from .ensemble import CAUTION, Ensemble
+from .ensemble import Ensemble
 from .members import follow
 from .smoothing import REACH, Estimate, SampleBuffer, Windows
 from .state import FilterState
@@ -295,7 +295,7 @@ class StickSlipFilter:
             taut_slip(self._design, tensions, sample.load)
         except TensionError:
             return
-        of_l, of_s = (CAUTION * estimate.error).tolist()
+        of_l, of_s = estimate.error.tolist()
         self._consistency.take(
             Reading(sample.time, *sample.reading, tensions, (of_l, of_s), sample.load)
         )
