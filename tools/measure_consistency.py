@@ -61,7 +61,7 @@ def run(drawn: Session, fault: Fault, random: np.random.Generator) -> Run:
     stop = fault.design.max_bend_angle
     last = None
     for time, angle, tension_l, tension_s in zip(
-        *(part.tolist() for part in drawn[4:]), strict=True
+        *(part.tolist() for part in drawn[5:]), strict=True
     ):
         try:
             found.update(tension_l, tension_s + fault.bias, time)

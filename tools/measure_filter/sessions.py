@@ -1,6 +1,6 @@
 """Random sessions of a unit: what its tensions were, where it was, and what load cells said.
 
-The truth is the exact tracker on tensions without noise.
+The truth is the exact tracker on tensions without noise, for a design that may be a little wrong.
 """
 
 from __future__ import annotations
@@ -15,12 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tendon_statics import (
+    DesignUncertainty,
     JointDesign,
     StickSlipTracker,
     default_design_path,
     load_design,
     slip_margin,
 )
+from tendon_statics.physics.draws import draw_designs
 
 Floats = NDArray[np.float64]
 
@@ -65,6 +67,12 @@ UNITS = {
 """Name → the unit, and the tension in N that the weaker cable keeps"""
 
 PROGRAMS = ('ramps', 'staircases', 'cycles')
+TOLERANCE = DesignUncertainty(
+    ('friction_coefficient', 'cable_offset', 'mass'),
+    ((0.01**2, 0.0, 0.0), (0.0, 5e-5**2, 0.0), (0.0, 0.0, 1e-3**2)),
+)
+"""What is known of a unit that is not quite its design"""
+
 NOISES = (0.005, 0.01, 0.02)
 """N"""
 RATES = (200.0, 500.0)
@@ -79,6 +87,9 @@ class Session(NamedTuple):
     noise: float
     """Standard deviation in N"""
     design: JointDesign
+    """As the filter has it"""
+    uncertainty: DesignUncertainty | None
+    """Of the design, from which the true one is drawn; None where the two are the same"""
     time: Floats
     bend_angle: Floats
     """True, in rad"""
@@ -90,25 +101,41 @@ class Session(NamedTuple):
 def sessions(count: int, seconds: float, seed: int) -> Iterator[Session]:
     """Yield random sessions; units, programs, noises and rates in turn."""
     random = np.random.default_rng(seed)
-    kinds = itertools.cycle(itertools.product(PROGRAMS, UNITS, RATES))
-    for _, (program, unit, rate) in zip(range(count), kinds, strict=False):
-        yield session(unit, program, float(random.choice(NOISES)), rate, seconds, random)
+    kinds = [
+        *itertools.product(PROGRAMS, UNITS, RATES, [None]),
+        *itertools.product(PROGRAMS[:1], UNITS, RATES, [TOLERANCE]),
+    ]
+    for _, (program, unit, rate, uncertainty) in zip(
+        range(count), itertools.cycle(kinds), strict=False
+    ):
+        noise = float(random.choice(NOISES))
+        yield session(unit, program, noise, rate, seconds, random, uncertainty)
 
 
 def session(
-    unit: str, program: str, noise: float, rate: float, seconds: float, random: np.random.Generator
+    unit: str,
+    program: str,
+    noise: float,
+    rate: float,
+    seconds: float,
+    random: np.random.Generator,
+    uncertainty: DesignUncertainty | None = None,
 ) -> Session:
     """Return one random session, of `PROGRAMS` or of strokes from side to side."""
     design, weak = UNITS[unit]
     drive = _drive(design, weak, program, rate, seconds, random)
     tension_l, tension_s = weak + np.maximum(-drive, 0.0), weak + np.maximum(drive, 0.0)
-    tracker = StickSlipTracker(design)
+    true = design
+    if uncertainty is not None:
+        normals = random.normal(size=(len(uncertainty.parameters), 1))
+        (true,) = draw_designs(design, uncertainty, normals)
+    tracker = StickSlipTracker(true)
     angles = [
         tracker.update(*pair).bend_angle
         for pair in zip(tension_l.tolist(), tension_s.tolist(), strict=True)
     ]
     return Session(
-        *(unit, program, noise, design),
+        *(unit, program, noise, design, uncertainty),
         np.arange(len(drive)) / rate,
         np.array(angles),
         *(cable + random.normal(0.0, noise, len(drive)) for cable in (tension_l, tension_s)),

@@ -37,6 +37,9 @@ TOGETHER = 5
 MOVED = 6.0
 """Deviations of two groups from the mean while at rest, above which the unit has moved"""
 
+SLIDES = 3.0
+"""Deviations from one group to the next above which a unit that has slipped slides on"""
+
 SAME_SLIP = 0.5
 """Time in s within which motion to the same side is one slip"""
 
@@ -204,6 +207,9 @@ class Consistency:
         if not group.is_steady:
             return Score()
         beyond = self._overdriven(group, side)
+        before = self._groups[-2]
+        if side * (group.mean - before.mean) > SLIDES * math.hypot(group.error, before.error):
+            return beyond  # It is on the boundary all the time.
         readings = [one for part in list(self._groups)[-3:] for one in part.readings]
         return beyond if beyond.value > 0.0 else self._short(readings, group, side)
 
