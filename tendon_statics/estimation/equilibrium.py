@@ -50,9 +50,7 @@ class PairEstimate(ExactEstimate):
     @kept
     def regime_probabilities(self) -> Mapping[Regime, float] | None:
         """Probability of each regime, in closed form; None where there is none."""
-        if self._distribution is None:
-            return None
-        return {regime: self._distribution.probability(regime) for regime in Regime}
+        return None if self._distribution is None else self._distribution.probabilities
 
     @property
     def remarks(self) -> list[Remark]:

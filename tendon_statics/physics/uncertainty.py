@@ -135,17 +135,24 @@ class SlipAngleDistribution:
         Of ``equilibrium``, ``held``, ``driven_to_stop`` and, if noise can make one, ``slack``.
         What it would refuse is in none of them.
         """
-        regime = Regime(regime)
+        return self.probabilities[Regime(regime)]
+
+    @cached_property
+    def probabilities(self) -> dict[Regime, float]:
+        """The probability of each regime."""
         if not self.is_closed_form:
-            return self._drawn.probability(regime)
+            return {regime: self._drawn.probability(regime) for regime in Regime}
         at_zero, at_stop = self._at_ends
-        first, last = (
-            (Regime.DRIVEN_TO_STOP, Regime.HELD)
-            if self._direction > 0.0
-            else (Regime.HELD, Regime.DRIVEN_TO_STOP)
-        )
-        found = {first: at_zero, last: 1.0 - at_stop, Regime.EQUILIBRIUM: at_stop - at_zero}
-        return max(found.get(regime, 0.0), 0.0)
+        driven, held = at_zero, 1.0 - at_stop
+        if self._direction < 0.0:
+            driven, held = held, driven
+        return {
+            Regime.EQUILIBRIUM: max(at_stop - at_zero, 0.0),
+            Regime.HELD: held,
+            Regime.SLIPPING: 0.0,
+            Regime.DRIVEN_TO_STOP: driven,
+            Regime.SLACK: 0.0,
+        }
 
     def cdf(self, angle: float) -> float:
         """Return the probability that the slip angle lies between 0, or before, and an angle.
