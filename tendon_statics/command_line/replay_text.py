@@ -87,8 +87,15 @@ def _band_facts(replay: Replay) -> Facts:
     facts = [(title, f'{_degrees(float(np.mean((high - low)[known])))} wide in the mean')]
     measured = replay.recording.bend_angle
     if measured is not None and (both := known & np.isfinite(measured)).any():
-        within = np.mean(((low <= measured) & (measured <= high))[both])
-        facts.append(('within it', f'{100.0 * within:.4g} % of the measured angles'))
+        spread = 2.0 * replay.measured_stddev
+        within = np.mean(((low - spread <= measured) & (measured <= high + spread))[both])
+        facts.append(
+            (
+                'within it',
+                f'{100.0 * within:.4g} % of the measured angles, give or take two deviations of '
+                f'the sensor, {_degrees(spread)}',
+            )
+        )
     return facts
 
 

@@ -36,6 +36,11 @@ class Unit:
         """How well the design is known, if the file says it."""
         return self.settings.design_uncertainty
 
+    def with_uncertainty(self, uncertainty: DesignUncertainty | None) -> Unit:
+        """Return the same with another design uncertainty, say of a design that was fitted."""
+        settings = dataclasses.replace(self.settings, design_uncertainty=uncertainty)
+        return dataclasses.replace(self, settings=settings)
+
     @property
     def cable_l(self) -> CableScale:
         """How the tension of cable l follows from what is measured."""

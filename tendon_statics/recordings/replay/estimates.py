@@ -113,6 +113,7 @@ def replay(
         angle_assured=np.concatenate(assured),
         validity=np.array(validity, dtype=np.str_),
         confidence=settings.confidence,
+        measured_stddev=settings.measured_bend_angle_stddev,
         interval=(of_each['low'], of_each['high']) if is_filtered else None,
         regime_probabilities={regime: of_each[regime.value] for regime in _FILTERED_REGIMES}
         if is_filtered

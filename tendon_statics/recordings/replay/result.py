@@ -37,6 +37,8 @@ class Replay(NamedTuple):
     """``valid``, or why a sample is not, in the node's words (`Reason`)"""
     confidence: float
     """Probability with which an interval holds the angle"""
+    measured_stddev: float
+    """Standard deviation of a measured angle in rad, as the settings have it"""
     interval: tuple[Floats, Floats] | None = None
     """Ends in rad of the interval that holds the angle; None unless filtered"""
     regime_probabilities: Mapping[Regime, Floats] | None = None
