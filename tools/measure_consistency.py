@@ -15,8 +15,8 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-
 from measure_filter.sessions import PROGRAMS, UNITS, Session, session, slip_tension
+
 from tendon_statics import JointDesign, StickSlipFilter, TensionError
 from tendon_statics.command_line.tables import markdown_table
 from tendon_statics.physics.filter.consistency import SLIPS, Score
@@ -152,15 +152,13 @@ def main() -> int:
     for unit, (design, _) in UNITS.items():
         runs = runs_of(unit, Fault(design), ('strokes', *PROGRAMS))
         right += runs
-        deviation = float(
-            np.nanmedian([score.deviation for one in runs for score in one.scores])
-        )
+        deviation = float(np.nanmedian([score.deviation for one in runs for score in one.scores]))
         rows.append((unit, 'none', f'{1e3 * deviation:.1f}', *_row(runs)))
         for name, fault in faults(unit, deviation).items() if not options.right else ():
             rows.append((unit, name, '', *_row(runs_of(unit, fault, ('strokes',)))))
     print(file=sys.stderr)
-    titles = ('unit', 'fault', 'deviation [mN]:', 'score:', 'slips:', 'found [%]:', 'within ten slips [%]:')
-    print(markdown_table((*titles, 'slips until found:'), rows))
+    titles = ('unit', 'fault', 'deviation [mN]:', 'score:', 'slips:', 'found [%]:')
+    print(markdown_table((*titles, 'within ten slips [%]:', 'slips until found:'), rows))
     if right:
         _print_right(right)
     print(

@@ -181,7 +181,6 @@ class Slip:
 
     def part(self, rows: Any) -> Slip:
         """Return the slip functions of some of the pairs that there are in arrays."""
-
         return self._each(lambda values: values[rows], self.numbers)
 
     def one(self, index: int) -> Slip:

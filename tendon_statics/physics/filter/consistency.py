@@ -9,8 +9,8 @@ boundary, g = 0, while it slips. How far readings are from that, in deviations, 
   shows the same to both sides, and once by side, since a bias does not.
 - Of a rest, how far the unit is driven beyond the boundary, if it is for a while.
 
-A unit that rests within the boundary is consistent with most models, and says nothing. Readings are
-judged by fives, each at the tensions of its own time.
+A unit that rests within the boundary is consistent with most models, and says nothing. Readings
+are judged by fives, each at the tensions of its own time.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ SAME_SLIP = 0.5
 """Time in s within which motion to the same side is one slip"""
 
 REST_GROUPS = 4
-"""Groups that tell a mean at rest, and groups in a row that have to be driven beyond the boundary"""
+"""Groups that tell the mean of a rest, and so many in a row tell that it is beyond the boundary"""
 
 STATISTICS = 5
 """Sums of scores of slips, and the score of rest, of which the worst counts"""
@@ -148,8 +148,8 @@ class Consistency:
     def _probabilities(self) -> list[float]:
         slips = self._slips
         sums = [
-            _together([slip[which] for slip in slips], signs)
-            for which in (1, 2)
+            _together(scores, signs)
+            for scores in ([slip.onset for slip in slips], [slip.landing for slip in slips])
             for signs in ([1.0] * len(slips), [slip.side for slip in slips])
         ]
         driven = min(self._driven) if len(self._driven) == REST_GROUPS else 0.0
@@ -223,7 +223,7 @@ class Consistency:
     def _short(self, readings: list[Reading], place: _Group, side: float) -> Score:
         """How far short of the boundary a unit at a place remains at all of these readings."""
         nearest = max(self._score([(one, place.mean)], side, place.error) for one in readings)
-        return nearest if nearest.value < 0.0 else Score()
+        return nearest._replace(value=min(nearest.value, 0.0))
 
     def _score(
         self, places: Sequence[tuple[Reading, float]], side: float, angle_error: float

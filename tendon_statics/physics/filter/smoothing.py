@@ -12,10 +12,11 @@ between the two, which tells of the bias that is left. Of the five kinds the one
 error is taken. Next to a corner that is a window that ends there: the mean of a rest right after a
 step is as good as in its midst.
 
-A line that comes up to a corner is believed for a little too long, since a few samples beyond it do
-not tell; and a unit would slip for each time that a ramp is seen to go on. But a signal does not
-jump. So where windows before and after a place say different things, it bends between two straight
-pieces that meet, and is the lower of the two where it bends down, the higher where it bends up.
+A line that comes up to a corner is believed for a little too long, since a few samples beyond it
+do not tell; and a unit would be carried along by a ramp that is seen to go on. But a signal does
+not jump. So where windows before and after a place say different things, it bends between two
+straight pieces that meet, and is the lower of the two where it bends down, the higher where it
+bends up.
 
 Samples are counted, not timed: they are taken to follow each other at a steady rate.
 """
@@ -23,7 +24,7 @@ Samples are counted, not timed: they are taken to follow each other at a steady 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from ..admissible import check_bend_angle
 from ..design import JointDesign
 from ..design_uncertainty import DesignUncertainty
-from ..load import UPRIGHT, Load
 from ..errors import TensionError
+from ..load import UPRIGHT, Load
 from ..state import Regime
 from ..tensions import Tensions, check_tensions, taut_slip
 from .consistency import Consistency, Reading
