@@ -72,11 +72,11 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
         )
     except DesignError as error:
         raise SettingError(f'{DESIGN if error.key else ""}{error}') from None
-    check_parameters(values)
     try:
         uncertainty = uncertainty_in(values)
     except DesignError as error:
         raise SettingError(str(error)) from error
+    check_parameters(values)
 
     def given(parameter: Parameter) -> Any:
         return values.get(parameter.name, parameter.default)
