@@ -45,6 +45,10 @@ steady: setup ## Run the tests of the node beside four busy loops, ten times (RU
 measure-filter: setup ## Measure the filter on random sessions, beside the tracker (ARGS='--sessions 48')
 	@$(run) cd tools && python -m measure_filter $(ARGS)
 
+.PHONY: measure-consistency
+measure-consistency: setup ## Measure how well the filter finds a model that is wrong (ARGS='--sessions 4')
+	@$(run) python tools/measure_consistency.py $(ARGS)
+
 .PHONY: bench
 bench: setup ## Measure the speed beside NumPy, C and a bare relay; tables, and build/bench.json
 	@$(run) cd tools && python -m bench --json ../build/bench.json

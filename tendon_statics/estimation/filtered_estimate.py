@@ -25,8 +25,6 @@ class FilteredEstimate(Estimate):
     ----------
     measured : float
         When the tensions were, in s.
-    consistency : float
-        Probability of the measured angles under the model, NaN if not known.
     """
 
     def __init__(
@@ -35,14 +33,13 @@ class FilteredEstimate(Estimate):
         known: KnownLoad,
         settings: Settings,
         measured: float,
-        consistency: float,
     ) -> None:
         tensions = (state.tension_l, state.tension_s)
         super().__init__(known, settings, state.regime, tensions, state.bend_angle)
         self.state = state
         self.measured = measured
         self.is_provisional = state.provisional
-        self.consistency = consistency
+        self.consistency = state.consistency
         self._assured = state.angle_assured and known.is_assured
 
     @property

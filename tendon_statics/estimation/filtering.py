@@ -62,6 +62,7 @@ class Filtering(Method):
             bend_angle_stddev=stddev,
             tension_stddev=settings.tension_stddev,
             tension_bias_stddev=settings.tension_bias_stddev,
+            design_covariance=settings.design_uncertainty,
             lag=settings.filter_lag,
         )
         if not self._assured:
@@ -75,11 +76,6 @@ class Filtering(Method):
             return self._here
         assert self._here.bend_angle is not None
         return self._here.bend_angle, float(self._here.members.std())
-
-    @property
-    def _consistency(self) -> float:
-        """Probability of the measured angles under the model."""
-        return math.nan
 
     def update(self, sample: Sample) -> FilteredEstimate:
         """Follow the unit through a pair of tensions."""
@@ -104,7 +100,7 @@ class Filtering(Method):
         return self._newest or self.imagine(sample)
 
     def _estimate(self, state: FilterState, known: KnownLoad, measured: float) -> FilteredEstimate:
-        return FilteredEstimate(state, known, self.settings, measured, self._consistency)
+        return FilteredEstimate(state, known, self.settings, measured)
 
     def take_committed(self) -> list[Estimate]:
         """Return the estimates that will not be taken back, each once; tensions are smoothed."""

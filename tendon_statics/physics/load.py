@@ -17,10 +17,13 @@ import numbers
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .design import JointDesign
 from .errors import LoadError
+
+if TYPE_CHECKING:
+    from .stacked_design import StackedDesign
 
 MAX_FORCE = 1e9
 """Largest force at the tip in N that is taken; far above any instrument, far below overflow."""
@@ -99,7 +102,7 @@ class Load:
         force_x, force_z = self.tip_force
         return Load((-x, y, z), (-force_x, force_z), self.tip_distance)
 
-    def on(self, design: JointDesign) -> DeadLoad:
+    def on(self, design: JointDesign | StackedDesign) -> DeadLoad:
         """Return the forces and moments that it means for one unit."""
         weight, lever = design.weight, design.com_distance
         x, _, z = self.gravity_direction

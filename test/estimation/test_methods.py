@@ -10,7 +10,6 @@ from designs import PRELIMINARY
 from tendon_statics import DesignUncertainty, Load, Regime, slip_angle_distribution, tensions_for
 from tendon_statics.estimation.estimate import KnownLoad, Remark
 from tendon_statics.estimation.filtered_estimate import UNEXPLAINED
-from tendon_statics.estimation.filtering import Filtering
 from tendon_statics.estimation.health import Level
 from tendon_statics.estimation.methods import METHODS
 from tendon_statics.estimation.settings import Settings
@@ -23,6 +22,7 @@ KNOWN = KnownLoad(UPRIGHT)
 SETTINGS = Settings(PRELIMINARY, tension_stddev=0.02)
 REMEMBERING = [name for name, method in METHODS.items() if method.remembers]
 UNSURE = DesignUncertainty(('friction_coefficient',), ((1e-4,),))
+VERY_UNSURE = DesignUncertainty(('friction_coefficient',), ((1e-2,),))
 
 
 def unit_of(estimation, **changes) -> UnitEstimator:
@@ -182,19 +182,33 @@ def test_tracking_says_once_that_believing_each_sample_is_unsafe():
     assert safe.take(*HELD, KNOWN, 0.0).remarks == []
 
 
-def test_a_model_that_does_not_explain_the_measured_angle_is_a_warning(monkeypatch):
-    for consistency, remarks in (
-        (math.nan, []),
-        (1.0, []),
-        (0.5 * UNEXPLAINED, [Remark.UNEXPLAINED]),
-    ):
-        monkeypatch.setattr(Filtering, '_consistency', consistency)
-        unit = unit_of('filtering')
-        found = unit.take(*HELD, KNOWN, 0.0)
-        assert found.remarks == remarks
-        assert unit.health.level is (Level.WARN if remarks else Level.OK)
-        assert unit.health.take_what_is_to_log() == remarks
-    assert 'does not explain the measured angle' in unit.health.findings()[0]
+@pytest.mark.parametrize(('pair', 'explained'), [(HELD, True), (STOP, False)])
+def test_a_model_that_does_not_explain_the_measured_angle_is_a_warning(pair, explained):
+    """A sensor says all the time that the unit stays at 0.1 rad, also where it has to slip."""
+    unit, random = unit_of('filtering'), np.random.default_rng(3)
+    assert math.isnan(unit.take(*pair, KNOWN, 0.0).consistency)
+    for place in range(1, 200):
+        unit.measure(0.1 + random.normal(0.0, 0.01), 0.01 * place)
+        found = unit.take(*pair, KNOWN, 0.01 * place)
+    remarks = [] if explained else [Remark.UNEXPLAINED]
+    assert found.remarks == remarks
+    assert (found.consistency < UNEXPLAINED) is not explained
+    assert unit.health.level is (Level.OK if explained else Level.WARN)
+    assert unit.health.take_what_is_to_log() == remarks
+    said = ' '.join(unit.health.findings())
+    assert ('does not explain the measured angle' in said) is not explained
+
+
+def test_the_interval_of_a_filter_covers_a_design_that_is_not_exact():
+    pairs = near_slip(0.9, 0.02, 100)
+    units = (unit_of('filtering', design_uncertainty=of) for of in (None, UNSURE))
+    sure, unsure = (follow(unit, [*pairs, *[STOP] * 40, *pairs])[-1] for unit in units)
+    assert sure.interval == unsure.interval  # The stop is certain.
+    units = (unit_of('filtering', design_uncertainty=of) for of in (None, VERY_UNSURE))
+    sure, unsure = (follow(unit, near_slip(0.97, 0.02, 300))[-1] for unit in units)
+    assert sure.interval[1] < math.radians(1.0)
+    assert unsure.interval[1] > math.radians(10.0)
+    assert 0.05 < 1.0 - unsure.regime_probabilities[Regime.HELD] < 0.95
 
 
 def test_a_sensor_that_reads_a_little_beyond_the_stop_is_at_the_stop():

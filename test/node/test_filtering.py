@@ -120,6 +120,30 @@ def test_a_slack_cable_casts_doubt_and_a_measured_angle_ends_it(filtering):
     assert found.bend_angle_low < measured < found.bend_angle_high
 
 
+def test_a_measured_angle_that_the_model_does_not_explain_is_a_warning(filtering):
+    """The unit is said to stay where it cannot stay under these tensions."""
+    assert filtering.reset().success
+    filtering.forget()
+    since, random = len(filtering.diagnostics), np.random.default_rng(6)
+
+    def is_warned():
+        return any(
+            status.level == DiagnosticStatus.WARN
+            and 'the model does not explain the measured angle' in status.message
+            for status in filtering.diagnostics[since:]
+        )
+
+    for _ in range(4000):  # It goes on, since what no longer comes is said to be stale.
+        angle = 0.1 + random.normal(0.0, 0.01)
+        filtering.measured_bend_angle.publish(Float64(data=angle))
+        filtering.answer(*STOP)
+        if is_warned():
+            break
+    assert is_warned()
+    assert any(estimate.consistency < 1e-9 for estimate in filtering.estimates)
+    assert filtering.reset().success
+
+
 def test_without_noise_there_is_nothing_to_filter_and_that_is_refused(filtering):
     result = filtering.set_estimator_parameters(tension_stddev=0.0)
     assert not result.successful
