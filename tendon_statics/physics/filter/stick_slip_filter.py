@@ -25,7 +25,7 @@ from .state import FilterState
 
 Floats = NDArray[np.float64]
 
-PATH = (0.75, 0.5, 0.375, 0.25, 0.18, 0.12, 0.08, 0.05, 0.03, 0.015, 0.0)
+PATH = (0.7, 0.45, 0.28, 0.16, 0.08, 0.03, 0.0)
 """Places of the provisional path, as shares of the lag before the newest sample"""
 
 HISTORY = 5000
