@@ -93,9 +93,17 @@ class Session(NamedTuple):
     time: Floats
     bend_angle: Floats
     """True, in rad"""
+    true_tension_s: Floats
+    """In N"""
     tension_l: Floats
     """Measured, in N"""
     tension_s: Floats
+
+    @property
+    def samples(self) -> Iterator[tuple[float, float, float, float]]:
+        """Time, true angle and measured tensions, sample by sample."""
+        arrays = (self.time, self.bend_angle, self.tension_l, self.tension_s)
+        return zip(*(array.tolist() for array in arrays), strict=True)
 
 
 def sessions(count: int, seconds: float, seed: int) -> Iterator[Session]:
@@ -138,6 +146,7 @@ def session(
         *(unit, program, noise, design, uncertainty),
         np.arange(len(drive)) / rate,
         np.array(angles),
+        tension_s,
         *(cable + random.normal(0.0, noise, len(drive)) for cable in (tension_l, tension_s)),
     )
 
