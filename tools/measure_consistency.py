@@ -19,7 +19,8 @@ from measure_filter.sessions import PROGRAMS, UNITS, Session, session, slip_tens
 
 from tendon_statics import JointDesign, StickSlipFilter, TensionError
 from tendon_statics.command_line.tables import markdown_table
-from tendon_statics.physics.filter.consistency import SLIPS, Score
+from tendon_statics.physics.filter.consistency import SLIPS
+from tendon_statics.physics.filter.scores import Score
 
 ALARM = 1e-9
 """Consistency below which the model counts as refuted"""
