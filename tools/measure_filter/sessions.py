@@ -169,7 +169,7 @@ def _drive(
     parts, now, turn = [np.zeros(1)], 0.0, 1.0
     while sum(map(len, parts)) < count:
         if program == 'strokes':
-            now = _stroke(parts, now, turn * _slipping(weak, first, last, random), rate, random)
+            now = _stroke(parts, now, turn * _slipping(design, weak, last, random), rate, random)
             turn = -turn
             continue
         level = _level(design, weak, first, last, random)
@@ -196,9 +196,9 @@ def _stroke(
     return level
 
 
-def _slipping(weak: float, first: float, last: float, random: np.random.Generator) -> float:
+def _slipping(design: JointDesign, weak: float, last: float, random: np.random.Generator) -> float:
     """A drive in N with which the unit slips to some angle on its way, or to its stop."""
-    return float(random.uniform(1.02 * first, 1.1 * last) - weak)
+    return float(random.uniform(1.02 * slip_tension(design, weak, 0.0), 1.1 * last) - weak)
 
 
 def _level(
