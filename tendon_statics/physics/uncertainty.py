@@ -291,7 +291,7 @@ class _Drawn:
                 _answer(one, left, right, load)
                 for one, (left, right) in zip(designs, pairs.T.tolist(), strict=True)
             ]
-            codes = {**REGIME_CODES, None: INVALID}
+            codes: dict[Regime | None, int] = {**REGIME_CODES, None: INVALID}
             regimes = np.array([codes[regime] for regime, _ in answers])
             angles = np.array([angle for _, angle in answers])
         else:
