@@ -291,8 +291,9 @@ class _Drawn:
                 _answer(one, left, right, load)
                 for one, (left, right) in zip(designs, pairs.T.tolist(), strict=True)
             ]
-            codes: dict[Regime | None, int] = {**REGIME_CODES, None: INVALID}
-            regimes = np.array([codes[regime] for regime, _ in answers])
+            regimes = np.array(
+                [INVALID if regime is None else REGIME_CODES[regime] for regime, _ in answers]
+            )
             angles = np.array([angle for _, angle in answers])
         else:
             batch = solve_batch(design, pairs[0], pairs[1], load)
