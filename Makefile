@@ -45,6 +45,10 @@ steady: setup ## Run the tests of the node beside four busy loops, ten times (RU
 measure-filter: setup ## Measure the filter on random sessions, beside the tracker (ARGS='--sessions 48')
 	@$(run) cd tools && python -m measure_filter $(ARGS)
 
+.PHONY: measure-smoothing
+measure-smoothing: setup ## Measure how the filter smooths tensions, in its own errors
+	@$(run) cd tools && python -m measure_filter.smoothing $(ARGS)
+
 .PHONY: measure-consistency
 measure-consistency: setup ## Measure how well the filter finds a model that is wrong (ARGS='--sessions 4')
 	@$(run) python tools/measure_consistency.py $(ARGS)

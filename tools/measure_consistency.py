@@ -19,7 +19,8 @@ from measure_filter.sessions import PROGRAMS, UNITS, Session, session, slip_tens
 
 from tendon_statics import JointDesign, StickSlipFilter, TensionError
 from tendon_statics.command_line.tables import markdown_table
-from tendon_statics.physics.filter.consistency import SLIPS, Score
+from tendon_statics.physics.filter.consistency import SLIPS
+from tendon_statics.physics.filter.scores import Score
 
 ALARM = 1e-9
 """Consistency below which the model counts as refuted"""
@@ -60,9 +61,7 @@ def run(drawn: Session, fault: Fault, random: np.random.Generator) -> Run:
     found_after, least, seen, scores = math.inf, 1.0, 0, []
     stop = fault.design.max_bend_angle
     last = None
-    for time, angle, tension_l, tension_s in zip(
-        *(part.tolist() for part in drawn[5:]), strict=True
-    ):
+    for time, angle, tension_l, tension_s in drawn.samples:
         try:
             found.update(tension_l, tension_s + fault.bias, time)
         except TensionError:

@@ -22,9 +22,11 @@ from statistics import NormalDist
 from .design import JointDesign
 from .design_gradients import excess_by_design
 from .design_uncertainty import DesignUncertainty
+from .errors import TensionError
 from .gradients import slip_by_tensions
 from .load import UPRIGHT, Load
 from .slip import Slip
+from .solver import solve
 from .state import Regime
 from .tensions import Tensions, check_tensions, taut_slip
 
@@ -288,7 +290,7 @@ class _Drawn:
     ) -> None:
         import numpy as np  # Here, for who stays in closed form should not wait for it.
 
-        from .batch import REGIME_CODES, solve_batch
+        from .batch import INVALID, REGIME_CODES, solve_batch
         from .draws import draw_designs, draw_normals
 
         parameters = 0 if uncertainty is None else len(uncertainty.parameters)
@@ -298,12 +300,15 @@ class _Drawn:
         pairs = np.maximum(pairs, 0.0)
         if uncertainty is not None:
             designs = draw_designs(design, uncertainty, normals[2:])
+            # One by one: a batch is of one design.
             answers = [
-                solve_batch(one, pair[:1], pair[1:], load)
-                for one, pair in zip(designs, pairs.T, strict=True)
+                _answer(one, left, right, load)
+                for one, (left, right) in zip(designs, pairs.T.tolist(), strict=True)
             ]
-            regimes = np.concatenate([answer.regime for answer in answers])
-            angles = np.concatenate([answer.bend_angle for answer in answers])
+            regimes = np.array(
+                [INVALID if regime is None else REGIME_CODES[regime] for regime, _ in answers]
+            )
+            angles = np.array([angle for _, angle in answers])
         else:
             batch = solve_batch(design, pairs[0], pairs[1], load)
             regimes, angles = batch.regime, batch.bend_angle
@@ -339,3 +344,14 @@ class _Drawn:
             return None
         outside = int(0.5 * (1.0 - level) * len(self._angles))
         return self._angles[outside], self._angles[-1 - outside]
+
+
+def _answer(
+    design: JointDesign, tension_l: float, tension_s: float, load: Load
+) -> tuple[Regime | None, float]:
+    """Regime and bend angle in rad; None and NaN where there is none."""
+    try:
+        answer = solve(design, tension_l, tension_s, load)
+    except TensionError:
+        return None, math.nan
+    return answer.regime, math.nan if answer.bend_angle is None else answer.bend_angle

@@ -43,8 +43,7 @@ def score(session: Session) -> Score:
     tracker = StickSlipTracker(session.design)
     covered, off, tracker_off, width, committed_off, committed = 0, 0, 0, 0.0, 0, 0
     angles = dict(zip(session.time.tolist(), session.bend_angle.tolist(), strict=True))
-    samples = zip(*(part.tolist() for part in session[5:]), strict=True)
-    for time, truth, tension_l, tension_s in samples:
+    for time, truth, tension_l, tension_s in session.samples:
         try:
             state = found.update(tension_l, tension_s, time)
             tracker.update(tension_l, tension_s)

@@ -93,9 +93,17 @@ class Session(NamedTuple):
     time: Floats
     bend_angle: Floats
     """True, in rad"""
+    true_tension_s: Floats
+    """In N"""
     tension_l: Floats
     """Measured, in N"""
     tension_s: Floats
+
+    @property
+    def samples(self) -> Iterator[tuple[float, float, float, float]]:
+        """Time, true angle and measured tensions, sample by sample."""
+        arrays = (self.time, self.bend_angle, self.tension_l, self.tension_s)
+        return zip(*(array.tolist() for array in arrays), strict=True)
 
 
 def sessions(count: int, seconds: float, seed: int) -> Iterator[Session]:
@@ -138,6 +146,7 @@ def session(
         *(unit, program, noise, design, uncertainty),
         np.arange(len(drive)) / rate,
         np.array(angles),
+        tension_s,
         *(cable + random.normal(0.0, noise, len(drive)) for cable in (tension_l, tension_s)),
     )
 
@@ -160,7 +169,7 @@ def _drive(
     parts, now, turn = [np.zeros(1)], 0.0, 1.0
     while sum(map(len, parts)) < count:
         if program == 'strokes':
-            now = _stroke(parts, now, turn * _slipping(weak, first, last, random), rate, random)
+            now = _stroke(parts, now, turn * _slipping(design, weak, last, random), rate, random)
             turn = -turn
             continue
         level = _level(design, weak, first, last, random)
@@ -187,9 +196,9 @@ def _stroke(
     return level
 
 
-def _slipping(weak: float, first: float, last: float, random: np.random.Generator) -> float:
+def _slipping(design: JointDesign, weak: float, last: float, random: np.random.Generator) -> float:
     """A drive in N with which the unit slips to some angle on its way, or to its stop."""
-    return float(random.uniform(1.02 * first, 1.1 * last) - weak)
+    return float(random.uniform(1.02 * slip_tension(design, weak, 0.0), 1.1 * last) - weak)
 
 
 def _level(

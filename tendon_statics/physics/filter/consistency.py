@@ -17,25 +17,19 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Sequence
 from statistics import NormalDist
 from typing import NamedTuple
 
 from ..design import JointDesign
-from ..design_gradients import excess_by_design
 from ..design_uncertainty import DesignUncertainty
-from ..gradients import slip_by_tensions
-from ..load import Load
-from ..tensions import Tensions, taut_slip
+from ..tensions import taut_slip
+from .scores import MOVED, Boundary, Group, Reading, Score, together
 
 SLIPS = 10
 """Newest slips that are judged together"""
 
 TOGETHER = 5
 """Readings that are judged as one group"""
-
-MOVED = 6.0
-"""Deviations of two groups from the mean while at rest, above which the unit has moved"""
 
 SLIDES = 3.0
 """Deviations from one group to the next above which a unit that has slipped slides on"""
@@ -50,50 +44,6 @@ STATISTICS = 5
 """Sums of scores of slips, and the score of rest, of which the worst counts"""
 
 _NORMAL = NormalDist()
-
-
-class Reading(NamedTuple):
-    """A measured angle, with what is known of the tensions of then."""
-
-    time: float
-    bend_angle: float
-    stddev: float
-    tensions: Tensions
-    errors: tuple[float, float]
-    """Standard errors of T_l and T_s in N, from noise"""
-    load: Load
-
-
-class Score(NamedTuple):
-    """How far something is from what the model says, in deviations."""
-
-    value: float = 0.0
-    shared: float = 0.0
-    """Share of the variance that all scores have in common: of bias and design"""
-    deviation: float = math.nan
-    """One deviation, as a change in N of the tension of the cable ahead"""
-
-
-class _Group(NamedTuple):
-    """Readings in a row."""
-
-    readings: tuple[Reading, ...]
-    mean: float
-    error: float
-    """Standard error of the mean"""
-
-    @property
-    def is_steady(self) -> bool:
-        """Whether the unit did not jump in between, so that the mean is a place where it was."""
-        angles = [one.bend_angle for one in self.readings]
-        return max(angles) - min(angles) <= MOVED * self.readings[0].stddev
-
-    @classmethod
-    def of(cls, readings: Sequence[Reading]) -> _Group:
-        count = len(readings)
-        mean = sum(one.bend_angle for one in readings) / count
-        square = sum(one.stddev**2 for one in readings)
-        return cls(tuple(readings), mean, math.sqrt(square) / count)
 
 
 class _Slipping(NamedTuple):
@@ -119,12 +69,10 @@ class Consistency:
     def __init__(
         self, design: JointDesign, bias_stddev: float, uncertainty: DesignUncertainty | None
     ) -> None:
-        self._design = design
-        self._bias_stddev = bias_stddev
-        self._uncertainty = uncertainty
+        self._boundary = Boundary(design, bias_stddev, uncertainty)
         self._readings: list[Reading] = []
-        self._groups: deque[_Group] = deque(maxlen=4)
-        self._rest: list[_Group] = []
+        self._groups: deque[Group] = deque(maxlen=4)
+        self._rest: list[Group] = []
         self._slips: deque[_Slipping] = deque(maxlen=SLIPS)
         self._last_motion = -math.inf
         self._driven: deque[float] = deque(maxlen=REST_GROUPS)
@@ -138,7 +86,7 @@ class Consistency:
         self._readings.append(reading)
         if len(self._readings) < TOGETHER:
             return
-        self._groups.append(_Group.of(self._readings))
+        self._groups.append(Group.of(self._readings))
         self._readings.clear()
         self._judge_rest(self._groups[-1])
         if len(self._groups) > 1:
@@ -148,7 +96,7 @@ class Consistency:
     def _probabilities(self) -> list[float]:
         slips = self._slips
         sums = [
-            _together(scores, signs)
+            together(scores, signs)
             for scores in ([slip.onset for slip in slips], [slip.landing for slip in slips])
             for signs in ([1.0] * len(slips), [slip.side for slip in slips])
         ]
@@ -157,16 +105,16 @@ class Consistency:
             _NORMAL.cdf(-max(driven, 0.0))
         ]
 
-    def _judge_rest(self, group: _Group) -> None:
+    def _judge_rest(self, group: Group) -> None:
         """Hold that a unit is not driven beyond the boundary, unless against a stop."""
         first = group.readings[0]
-        slip, _ = taut_slip(self._design, first.tensions, first.load).driving(group.mean)
+        slip, _ = taut_slip(self._boundary.design, first.tensions, first.load).driving(group.mean)
         self._driven.append(self._overdriven(group, slip.side).value)
 
     def _judge_motion(self) -> None:
         """Find out whether the unit has moved, as the newest two groups both say."""
         group, newest = self._groups[-2], self._groups[-1]
-        rest = _Group.of([one for part in self._rest or [group] for one in part.readings])
+        rest = Group.of([one for part in self._rest or [group] for one in part.readings])
         changes = [
             (one.mean - rest.mean) / math.hypot(one.error, rest.error) for one in (group, newest)
         ]
@@ -185,7 +133,7 @@ class Consistency:
         self._last_motion = time
         self._rest = [newest]
 
-    def _onset(self, rest: _Group, side: float) -> Score:
+    def _onset(self, rest: Group, side: float) -> Score:
         """How far beyond the boundary a unit was before it slipped, or short of it until then."""
         readings = [one for group in self._groups for one in group.readings]
         left = [
@@ -196,13 +144,13 @@ class Consistency:
         first = left.index(True) if True in left else len(readings) - 1
         before = readings[max(first - 2, 0) : first] if True in left else readings[:TOGETHER]
         if before:
-            group = _Group.of(before)
+            group = Group.of(before)
             beyond = self._overdriven(group, side)
             if beyond.value > 0.0:
                 return beyond
         return self._short(readings[: first + 1], rest, side)
 
-    def _landing(self, group: _Group, side: float) -> Score:
+    def _landing(self, group: Group, side: float) -> Score:
         """How far beyond the boundary a unit stops that has slipped, or short of it."""
         if not group.is_steady:
             return Score()
@@ -213,63 +161,21 @@ class Consistency:
         readings = [one for part in list(self._groups)[-3:] for one in part.readings]
         return beyond if beyond.value > 0.0 else self._short(readings, group, side)
 
-    def _overdriven(self, group: _Group, side: float) -> Score:
+    def _overdriven(self, group: Group, side: float) -> Score:
         """How far beyond the boundary a group is; nothing against a stop, or while it jumps."""
         spread = MOVED * group.readings[0].stddev
-        if not group.is_steady or side * group.mean > self._design.max_bend_angle - spread:
+        if (
+            not group.is_steady
+            or side * group.mean > self._boundary.design.max_bend_angle - spread
+        ):
             return Score()
-        return self._score([(one, one.bend_angle) for one in group.readings], side, group.error)
-
-    def _short(self, readings: list[Reading], place: _Group, side: float) -> Score:
-        """How far short of the boundary a unit at a place remains at all of these readings."""
-        nearest = max(self._score([(one, place.mean)], side, place.error) for one in readings)
-        return nearest._replace(value=min(nearest.value, 0.0))
-
-    def _score(
-        self, places: Sequence[tuple[Reading, float]], side: float, angle_error: float
-    ) -> Score:
-        """Return the mean slip function of readings at angles in rad, in deviations."""
-        stop, lever = self._design.max_bend_angle, self._design.relative_lever
-        excess = noise = bias = slope = ahead = 0.0
-        for reading, angle in places:
-            slip = taut_slip(self._design, reading.tensions, reading.load, side)
-            point = slip.at(min(max(side * angle, -stop), stop))
-            by = slip_by_tensions(slip, point, lever)
-            of_behind, of_ahead = reading.errors[:: int(side)]
-            excess += point.excess
-            slope += point.slope
-            noise += math.hypot(by[0] * of_behind, by[1] * of_ahead)
-            bias += math.hypot(*by)
-            ahead += abs(by[1])
-        # Tensions of one time have much of their noise in common, so that its mean is no smaller.
-        own = noise**2 + (slope * angle_error) ** 2
-        shared = (bias * self._bias_stddev) ** 2
-        if self._uncertainty is not None and excess**2 > own + shared:
-            shared += len(places) ** 2 * self._by_design(*places[-1], side)
-        deviation = math.sqrt(own + shared)
-        return Score(excess / deviation, shared / deviation**2, deviation / ahead)
-
-    def _by_design(self, reading: Reading, angle: float, side: float) -> float:
-        """Variance of the slip function from the design's own."""
-        assert self._uncertainty is not None
-        stop = self._design.max_bend_angle
-        ahead = min(max(side * angle, -stop), stop)
-
-        def excess(design: JointDesign) -> float:
-            return float(taut_slip(design, reading.tensions, reading.load, side).value(ahead))
-
-        names, covariance = self._uncertainty.parameters, self._uncertainty.covariance
-        slopes = excess_by_design(excess, self._design, names, sum(reading.tensions))
-        return sum(
-            one * other * variance
-            for one, row in zip(slopes, covariance, strict=True)
-            for other, variance in zip(slopes, row, strict=True)
+        return self._boundary.score(
+            [(one, one.bend_angle) for one in group.readings], side, group.error
         )
 
-
-def _together(scores: Sequence[Score], signs: Sequence[float]) -> float:
-    """Return the sum of scores in deviations of it; 0 where there are none."""
-    own = sum(1.0 - score.shared for score in scores)
-    shared = sum(math.sqrt(score.shared) for score in scores)
-    total = sum(sign * score.value for sign, score in zip(signs, scores, strict=True))
-    return total / math.sqrt(own + shared**2) if scores else 0.0
+    def _short(self, readings: list[Reading], place: Group, side: float) -> Score:
+        """How far short of the boundary a unit at a place remains at all of these readings."""
+        nearest = max(
+            self._boundary.score([(one, place.mean)], side, place.error) for one in readings
+        )
+        return nearest._replace(value=min(nearest.value, 0.0))

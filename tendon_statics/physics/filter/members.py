@@ -122,18 +122,13 @@ def follow(slips: Slip, angles: Floats, stop: Any) -> Floats:
     """
     whole = Step(slips, angles, stop)
     driven = whole.moves & ~whole.pressed
-    path = np.empty((len(driven) + 1, len(angles)))
     if not driven.any():
-        path[:] = angles
-        return path
-    first = int(np.argmax(driven.any(axis=1)))
-    path[:first] = angles
-    slips, sides = slips.part(slice(first, None)), np.unique(whole.side[driven])
-    rest = _pushed(slips, angles, stop, sides)
-    if rest is None and len(sides) == 1:
-        rest = _pushed(slips, angles, stop, np.array([-1.0, 1.0]))
-    path[first:] = _stepped(slips, angles, stop) if rest is None else rest
-    return path
+        return np.broadcast_to(angles, (len(driven) + 1, len(angles)))
+    sides = np.unique(whole.side[driven])
+    path = _pushed(slips, angles, stop, sides)
+    if path is None and len(sides) == 1:
+        path = _pushed(slips, angles, stop, np.array([-1.0, 1.0]))
+    return _stepped(slips, angles, stop) if path is None else path
 
 
 def _pushed(slips: Slip, angles: Floats, stop: Any, sides: Floats) -> Floats | None:

@@ -44,7 +44,7 @@ apart by the one sample in thousands that lies far out"""
 
 _AROUND, _LINES = 0, slice(3, 5)
 """Kinds of windows: around, before, after, and lines before and after"""
-_BEFORE, _AFTER = np.array([1, 3]), np.array([2, 4])
+_MEAN_KINDS, _LINE_KINDS = np.array([[1], [2]]), np.array([[3], [4]])
 
 
 class Estimate(NamedTuple):
@@ -163,19 +163,19 @@ class Windows:
         taken, value, error : ndarray
             Of each kind the window, and what it says, shape ``(signals, kinds, places)``.
         """
-        series, at = np.arange(len(value))[:, None], self._at
-        before = _BEFORE[error[:, _BEFORE].argmin(axis=1)]
-        after = _AFTER[error[:, _AFTER].argmin(axis=1)]
-        ends = (series, before, at), (series, after, at)
-        change = value[ends[1]] - value[ends[0]]
-        slopes = []
-        for end in ends:
-            window = taken[end]
-            of_sums = self._slope_of_sums[:, window]
-            slopes.append((within[:, series, window] * of_sums).sum(axis=0))
-        bend = slopes[1] - slopes[0]
-        corner = (abs(change) > np.hypot(error[ends[0]], error[ends[1]])) & (bend != 0.0)
-        met = np.where((change > 0.0) == (bend < 0.0), before, after)
+        ends, lines = slice(1, 3), taken[:, _LINES]
+        # Before and after the place, whichever of mean and line is the surer.
+        lined = error[:, _LINES] < error[:, ends]
+        sure = np.where(lined, error[:, _LINES], error[:, ends])
+        says = np.where(lined, value[:, _LINES], value[:, ends])
+        of_sums, series = self._slope_of_sums, np.arange(len(value))[:, None, None]
+        slope = within[0][series, lines] * of_sums[0].take(lines)
+        slope += within[1][series, lines] * of_sums[1].take(lines)
+        slope *= lined
+        change, bend = says[:, 1] - says[:, 0], slope[:, 1] - slope[:, 0]
+        kinds = np.where(lined, _LINE_KINDS, _MEAN_KINDS)
+        met = np.where((change > 0.0) == (bend < 0.0), kinds[:, 0], kinds[:, 1])
+        corner = (change * change > (sure * sure).sum(axis=1)) & (bend != 0.0)
         best: NDArray[np.intp] = np.where(corner, met, error.argmin(axis=1))
         return best
 

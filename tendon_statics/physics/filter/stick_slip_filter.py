@@ -5,7 +5,6 @@ from __future__ import annotations
 import bisect
 import math
 from collections import deque
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,16 +16,15 @@ from ..errors import TensionError
 from ..load import UPRIGHT, Load
 from ..state import Regime
 from ..tensions import Tensions, check_tensions, taut_slip
-from .consistency import Consistency, Reading
+from .consistency import Consistency
 from .ensemble import Ensemble
 from .members import follow
-from .smoothing import REACH, Estimate, SampleBuffer, Windows
+from .recent import RecentSamples, Sample
+from .scores import Reading
+from .smoothing import Estimate
 from .state import FilterState
 
 Floats = NDArray[np.float64]
-
-PATH = (0.75, 0.5, 0.375, 0.25, 0.18, 0.12, 0.08, 0.05, 0.03, 0.015, 0.0)
-"""Places of the provisional path, as shares of the lag before the newest sample"""
 
 HISTORY = 5000
 """Committed states that are kept"""
@@ -36,14 +34,6 @@ SURE = 0.99
 
 LOST = 6.0
 """Deviations of a measured angle from all members above which they are where it says"""
-
-
-@dataclass(slots=True)
-class _Sample:
-    time: float
-    load: Load
-    reading: tuple[float, float] | None = None
-    """Angle and its deviation in rad, where it was measured"""
 
 
 class StickSlipFilter:
@@ -104,12 +94,11 @@ class StickSlipFilter:
             if not least <= value < math.inf:
                 raise ValueError(f'{name} is {value!r}, allowed is {least:g} or more')
         self._design = design
-        self._stddev = tension_stddev
         self._lag = lag
         self._bias_stddev = tension_bias_stddev
         self._uncertainty = design_covariance
         self._ensemble = Ensemble(design, tension_bias_stddev, design_covariance, seed)
-        self._windows: dict[tuple[int, tuple[int, ...]], Windows] = {}
+        self._samples = RecentSamples(tension_stddev)
         self.reset(bend_angle, bend_angle_stddev)
 
     def reset(self, bend_angle: float, stddev: float = 0.0) -> None:
@@ -163,40 +152,30 @@ class StickSlipFilter:
             If the time is not later than that before. What was known stays in both cases.
         """
         tensions = check_tensions(tension_l, tension_s)
-        if self._samples and not time > self._samples[-1].time:
-            raise ValueError(
-                f'time is {time!r} s, which is not after {self._samples[-1].time!r} s'
-            )
+        last = self._samples.time
+        if last is not None and not time > last:
+            raise ValueError(f'time is {time!r} s, which is not after {last!r} s')
         if tensions.slack_cable:
             self.doubt()
             return FilterState.slack(self._design, load, time, tensions)
         taut_slip(self._design, tensions, load)
-        if self._samples and time - self._samples[-1].time > self._lag:
+        if last is not None and time - last > self._lag:
             # What was before cannot tell what the tensions are now.
             self._committed = self._newest
             self._forget_samples()
-        self._samples.append(_Sample(time, load))
-        self._buffer.append(tensions, REACH + len(self._samples))
-        settled = 0
-        for sample in self._samples:
-            if sample.time > time - self._lag:
-                break
-            settled += 1
-        return self._follow(tensions, settled)
+        self._samples.append(tensions, Sample(time, load))
+        return self._follow(tensions, self._samples.settled(time - self._lag))
 
     def _follow(self, tensions: Tensions, settled: int) -> FilterState:
         """Commit the samples that are settled, and follow the newer ones from there."""
-        samples, ensemble = self._samples, self._ensemble
-        newest = len(samples) - 1
-        ages = [newest - place for place in range(settled)]
-        # Those up to a measured angle are in what it was committed to.
-        waiting = len(samples) - max(settled, self._measured)
-        ages += sorted({round(share * (waiting - 1)) for share in PATH}, reverse=True)
-        estimate = self._smoothed(ages)
+        samples, ensemble = self._samples.waiting, self._ensemble
+        ages = self._samples.path(settled, self._measured)
+        estimate = self._samples.smoothed(ages)
         for row in range(settled):
             self._judge(samples[row], Estimate(*(part[:, row] for part in estimate)))
+        # Those up to a measured angle are in what it was committed to.
         first = min(settled, self._measured)
-        loads = [samples[newest - age].load for age in ages[first:]]
+        loads = [samples[-1 - age].load for age in ages[first:]]
         paths = ensemble.tensions(Estimate(*(part[:, first:] for part in estimate)))
         slips = ensemble.slips(paths, loads)
         path = follow(slips, self._committed, ensemble.stop)
@@ -222,20 +201,9 @@ class StickSlipFilter:
         self._last = state
         return state
 
-    def _smoothed(self, ages: list[int]) -> Estimate:
-        """The tensions at samples of these ages."""
-        count = min(len(self._buffer), REACH + ages[0])
-        key = count, tuple(ages)
-        windows = self._windows.get(key)
-        if windows is None:  # They seldom change.
-            if len(self._windows) > 64:
-                self._windows.clear()
-            windows = self._windows[key] = Windows(count, np.array(ages))
-        return windows.estimate(self._buffer.newest(count), self._stddev)
-
     def _state(
         self,
-        sample: _Sample,
+        sample: Sample,
         tensions: Tensions,
         path: Floats,
         member_tensions: Floats,
@@ -245,7 +213,7 @@ class StickSlipFilter:
         """The state at a sample; `path` is where the members were before it and are at it."""
         return FilterState(
             *(self._design, sample.load, sample.time, tensions),
-            angles=path[1],
+            angles=path[1].copy(),
             moved=path[1] != path[0],
             ensemble=self._ensemble,
             member_tensions=member_tensions,
@@ -281,12 +249,13 @@ class StickSlipFilter:
             gain = 1.0
         self._committed = self._newest = self._newest + gain * (readings - self._newest)
         self._assured = True
-        if self._samples:
-            self._samples[-1].reading = angle, stddev
-            self._measured = len(self._samples)
+        waiting = self._samples.waiting
+        if waiting:
+            waiting[-1].reading = angle, stddev
+            self._measured = len(waiting)
             self._history.append(self._last.measured(self._newest))
 
-    def _judge(self, sample: _Sample, estimate: Estimate) -> None:
+    def _judge(self, sample: Sample, estimate: Estimate) -> None:
         """Hold the angle that was measured at a sample, if it was, against its tensions."""
         if sample.reading is None:
             return
@@ -321,6 +290,5 @@ class StickSlipFilter:
         return self._history[index - 1] if index else None
 
     def _forget_samples(self) -> None:
-        self._samples: deque[_Sample] = deque()  # those that are not settled
-        self._measured = 0  # how many of them there were at the last measured angle
-        self._buffer = SampleBuffer(2)
+        self._samples.forget()
+        self._measured = 0  # how many of those waiting there were at the last measured angle
