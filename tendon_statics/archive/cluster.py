@@ -58,7 +58,7 @@ def connected(workers: int | None = None, scheduler: str | None = None) -> Itera
         n_workers=workers or len(os.sched_getaffinity(0)),
         threads_per_worker=1,
         processes=True,
-        dashboard_address=None,
+        dashboard_address='127.0.0.1:0',
         silence_logs='CRITICAL',
         preload=[local_worker.__name__],
     )
