@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import asyncio
+import logging
 import os
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from itertools import islice
 from typing import Any, Generic, TypeVar
 
@@ -52,18 +54,23 @@ def connected(workers: int | None = None, scheduler: str | None = None) -> Itera
         with client:
             yield client
         return
-    with (
-        distributed.LocalCluster(
-            n_workers=workers or len(os.sched_getaffinity(0)),
-            threads_per_worker=1,
-            processes=True,
-            dashboard_address=None,
-            silence_logs='CRITICAL',
-            preload=[local_worker.__name__],
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
+    cluster = distributed.LocalCluster(
+        n_workers=workers or len(os.sched_getaffinity(0)),
+        threads_per_worker=1,
+        processes=True,
+        dashboard_address='127.0.0.1:0',
+        silence_logs='CRITICAL',
+        preload=[local_worker.__name__],
+    )
+    client = distributed.Client(cluster)
+    try:
         yield client
+    finally:
+        # What an interruption cuts off is no news, and workers that are slow to end are killed.
+        logging.getLogger('asyncio').setLevel(logging.CRITICAL)
+        for ending in (client, cluster):
+            with suppress(TimeoutError, asyncio.TimeoutError):
+                ending.close()
 
 
 class Results(Generic[T, R]):

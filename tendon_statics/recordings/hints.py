@@ -115,12 +115,12 @@ def _of_spikes(recording: Recording, design: JointDesign, believed: Plausibility
         return []
     found = []
     for name, values in (('tension_l', recording.tension_l), ('tension_s', recording.tension_s)):
-        known = values[np.isfinite(values) & (np.array(recording.known_faults) == '')]
-        places = _spikes(known, SPIKE * design.weight)
+        believed_ones = np.where(np.array(recording.known_faults) == '', values, math.nan)
+        places = _spikes(believed_ones, SPIKE * design.weight)
         if len(places):
             place = int(places[0])
             found.append(
-                f'{name} goes from {known[place - 1]:.4g} N to {known[place]:.4g} N and back '
+                f'{name} goes from {values[place - 1]:.4g} N to {values[place]:.4g} N and back '
                 f'within one sample, {len(places)} times: if the cable does not, set its '
                 'max_tension, or max_tension_rate, in the design file (a rate needs times; '
                 '--rate HZ makes those of a table), or a tracked unit is put where it is not'
@@ -129,15 +129,14 @@ def _of_spikes(recording: Recording, design: JointDesign, believed: Plausibility
 
 
 def _spikes(values: Floats, least: float) -> NDArray[np.intp]:
-    """Places of single values that stand out of those around them."""
+    """Places of single values that stand out of those before and after them; NaN is none."""
     if len(values) < 3:
         return np.array([], dtype=np.intp)
-    steps = np.diff(values)
-    height = np.minimum(abs(steps[:-1]), abs(steps[1:]))
-    apart = abs(values[2:] - values[:-2])
-    is_spike = (steps[:-1] * steps[1:] < 0.0) & (apart <= AGREE * height) & (height > least)
-    places = np.flatnonzero(is_spike) + 1
-    others = np.delete(abs(steps), np.concatenate([places - 1, places]))
+    before, at, after = values[:-2], values[1:-1], values[2:]
+    height = np.minimum(at - before, at - after)
+    places = np.flatnonzero((height > least) & (abs(after - before) <= AGREE * height)) + 1
+    others = np.delete(abs(np.diff(values)), np.concatenate([places - 1, places]))
+    others = others[np.isfinite(others)]
     largest = float(others.max()) if len(others) else math.inf
     return places[height[places - 1] > STANDS_OUT * largest]
 

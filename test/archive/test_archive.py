@@ -86,7 +86,7 @@ def archive(tmp_path_factory):
 def cluster():
     """Two workers in processes of their own."""
     with LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs='CRITICAL'
+        n_workers=2, threads_per_worker=1, dashboard_address='127.0.0.1:0', silence_logs='CRITICAL'
     ) as cluster:
         yield cluster
 
