@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .files.arm_file import load_arm
     from .files.design_file import (
         default_design_path,
         load_design,
@@ -16,7 +17,13 @@ if TYPE_CHECKING:
     )
     from .physics import (
         UPRIGHT,
+        Arm,
+        ArmError,
+        ArmState,
+        ArmTracker,
+        ArmUnit,
         BendAngleError,
+        Cable,
         Calibration,
         CalibrationError,
         ContactForces,
@@ -38,8 +45,10 @@ if TYPE_CHECKING:
         TensionError,
         TensionGradient,
         Tensions,
+        TipPose,
         UnreachableError,
         admissible_angles,
+        arm_margins,
         calibrate,
         compare_laws,
         design_fields,
@@ -60,8 +69,14 @@ if TYPE_CHECKING:
 
 __all__ = [
     'UPRIGHT',
+    'Arm',
+    'ArmError',
+    'ArmState',
+    'ArmTracker',
+    'ArmUnit',
     'BagTopics',
     'BendAngleError',
+    'Cable',
     'Calibration',
     'CalibrationError',
     'ContactForces',
@@ -86,13 +101,16 @@ __all__ = [
     'TensionError',
     'TensionGradient',
     'Tensions',
+    'TipPose',
     'UnreachableError',
     'admissible_angles',
+    'arm_margins',
     'calibrate',
     'compare_laws',
     'default_design_path',
     'design_fields',
     'design_parameters',
+    'load_arm',
     'load_design',
     'load_design_uncertainty',
     'load_recording',
@@ -112,6 +130,7 @@ _NOT_OF_PHYSICS = {
     'Recording': '.recordings.recording',
     'RecordingError': '.recordings.errors',
     'default_design_path': '.files.design_file',
+    'load_arm': '.files.arm_file',
     'load_design': '.files.design_file',
     'load_design_uncertainty': '.files.design_file',
     'load_recording': '.recordings.reading.load',

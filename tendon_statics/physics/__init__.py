@@ -14,6 +14,7 @@ from .design import (
 )
 from .design_uncertainty import DesignUncertainty
 from .errors import (
+    ArmError,
     BendAngleError,
     CalibrationError,
     DesignError,
@@ -33,6 +34,7 @@ from .tracker import StickSlipTracker
 from .uncertainty import SlipAngleDistribution, slip_angle_distribution
 
 if TYPE_CHECKING:
+    from .arm import Arm, ArmState, ArmTracker, ArmUnit, Cable, TipPose, arm_margins
     from .batch import EquilibriumBatch, solve_batch
     from .calibration import Calibration, LawComparison, calibrate, compare_laws
     from .filter import FilterState, StickSlipFilter
@@ -40,7 +42,13 @@ if TYPE_CHECKING:
 __all__ = [
     'CONTACT_LAWS',
     'UPRIGHT',
+    'Arm',
+    'ArmError',
+    'ArmState',
+    'ArmTracker',
+    'ArmUnit',
     'BendAngleError',
+    'Cable',
     'Calibration',
     'CalibrationError',
     'ContactCoefficients',
@@ -65,8 +73,10 @@ __all__ = [
     'TensionError',
     'TensionGradient',
     'Tensions',
+    'TipPose',
     'UnreachableError',
     'admissible_angles',
+    'arm_margins',
     'calibrate',
     'compare_laws',
     'contact_coefficients',
@@ -82,11 +92,18 @@ __all__ = [
 
 
 _NEEDING_NUMPY = {
+    'Arm': '.arm',
+    'ArmState': '.arm',
+    'ArmTracker': '.arm',
+    'ArmUnit': '.arm',
+    'Cable': '.arm',
     'Calibration': '.calibration',
     'EquilibriumBatch': '.batch',
     'FilterState': '.filter',
     'LawComparison': '.calibration',
     'StickSlipFilter': '.filter',
+    'TipPose': '.arm',
+    'arm_margins': '.arm',
     'calibrate': '.calibration',
     'compare_laws': '.calibration',
     'solve_batch': '.batch',

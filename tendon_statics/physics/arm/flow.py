@@ -1,0 +1,230 @@
+"""How the joints of an arm slip, together, until all are at rest.
+
+The rule for several joints at once: equal viscosity in every joint, taken to zero. A joint beyond
+its limit moves with
+
+    θ' = f = ±(|M| − K),
+
+to the side to which it is driven, all others rest. How fast is of no account, only where it ends.
+The cables and the dead load do the work ∫ M dθ, of which friction takes up at least K all along,
+so the way of all joints together is bounded, and the arm comes to rest.
+
+The motion is smooth while it is the same joints that move. It is followed so, step by step, and
+each step ends where another joint comes to its limit, one falls below it, or one meets its stop.
+Where little is left to go, M = K of those that move is solved by Newton's method.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .excess import Excess, Look
+from .rosenbrock import rosenbrock_step
+
+Floats = NDArray[np.float64]
+
+ROUNDING = 1e-11
+"""Share of K by which M may exceed it at rest"""
+
+TOLERANCE = 2e-6
+"""Error of one step in rad that is accepted, and how exactly a step ends where it has to"""
+
+NEAR = 1e-5
+"""Way in rad that is left to Newton's method"""
+
+FIRST_WAY = 1e-2
+"""Way in rad of the fastest joint in the first step that is tried"""
+
+MOST_STEPS = 20000
+
+
+@dataclass
+class Settled:
+    """Where an arm has come to rest."""
+
+    look: Look
+    at_limit: dict[int, float] = field(default_factory=dict)
+    """Joints that came to rest with M = K → the side to which they were driven"""
+    moved: set[int] = field(default_factory=set)
+    """All joints that have slipped"""
+
+
+def settle(excess: Excess, angles: list[float]) -> Settled:
+    """Let an arm slip from bend angles in rad until it is at rest.
+
+    Raises
+    ------
+    ArithmeticError
+        If it does not come to rest, which would contradict the model.
+    """
+    return _Flow(excess, angles).run()
+
+
+class _Flow:
+    def __init__(self, excess: Excess, angles: list[float]) -> None:
+        self._excess, self._stops = excess, excess.arm.stops
+        self._look = excess.at(angles)
+        self._moving: dict[int, float] = {}
+        self._moved: set[int] = set()
+        self._free()
+
+    def run(self) -> Settled:
+        step = 0.0
+        for _ in range(MOST_STEPS):
+            if not self._moving:
+                return Settled(self._look, {}, self._moved)
+            velocity = self._velocity(self._look)
+            jacobian = self._excess.jacobian(self._look, self._moving, list(self._moving))
+            if self._end(velocity, jacobian):
+                before = dict(self._moving)
+                if not self._free():
+                    return Settled(self._look, before, self._moved)
+                continue
+            fastest = float(abs(velocity).max())
+            step = step or FIRST_WAY / fastest
+            step = self._advance(velocity, jacobian, step)
+        raise ArithmeticError('the arm does not come to rest')
+
+    def _velocity(self, look: Look) -> Floats:
+        return np.array([look.velocity(i, side) for i, side in self._moving.items()])
+
+    def _after(self, way: Floats) -> Look:
+        """Look at the arm with the moving joints moved on."""
+        angles = list(self._look.angles)
+        for joint, by in zip(self._moving, way.tolist(), strict=True):
+            angles[joint] += by
+        return self._excess.at(angles)
+
+    def _take(self, look: Look) -> None:
+        self._excess.remember(look)
+        self._look = look
+
+    def _free(self) -> bool:
+        """Set moving what is beyond its limit and not before its stop; whether there is any."""
+        found = False
+        for joint in range(len(self._stops)):
+            if joint in self._moving:
+                continue
+            side, excess, capacity = self._look.drive(joint)
+            at_stop = side * self._look.angles[joint] >= self._stops[joint]
+            if excess > ROUNDING * capacity and not at_stop:
+                self._moving[joint] = side
+                self._moved.add(joint)
+                found = True
+        return found
+
+    # Step by step
+
+    def _advance(self, velocity: Floats, jacobian: Floats, step: float) -> float:
+        """Go one step on, as long as is right; return what the next may be."""
+        tried = step
+        while True:
+            try:
+                way, error = rosenbrock_step(
+                    lambda way: self._velocity(self._after(way)), velocity, jacobian, step
+                )
+                worst = float(abs(error).max()) / TOLERANCE
+            except np.linalg.LinAlgError:
+                worst = math.inf
+            if not worst <= 1.0:
+                step *= max(0.2, 0.9 * worst ** (-1.0 / 3.0)) if math.isfinite(worst) else 0.1
+                tried = step
+                continue
+            after = self._after(way)
+            share = self._until(after, velocity, jacobian, step)
+            if share < 1.0:
+                step *= max(share, 1e-3)
+                continue
+            self._take(after)
+            self._change()
+            growth: float = 0.9 * max(worst, 1e-6) ** (-1.0 / 3.0)
+            return tried * min(6.0, growth)
+
+    def _until(self, after: Look, velocity: Floats, jacobian: Floats, step: float) -> float:
+        """Return the share of a step after which the joints that move are no longer the same.
+
+        It is 1 where they are to its end, or nearly.
+        """
+        found = 1.0
+        for place, (joint, side) in enumerate(self._moving.items()):
+            start, end, stop = self._look.angles[joint], after.angles[joint], self._stops[joint]
+            beyond = side * end - stop
+            if beyond > TOLERANCE:
+                found = min(found, (stop - side * start) / (side * (end - start)))
+            left = side * after.velocity(joint, side)
+            if self._counts(-left, step, jacobian[place, place]):
+                was = side * float(velocity[place])
+                found = min(found, was / (was - left) if was > 0.0 else 0.0)
+        for joint in range(len(self._stops)):
+            if joint in self._moving:
+                continue
+            side, excess, capacity = after.drive(joint)
+            if side * after.angles[joint] >= self._stops[joint]:
+                continue
+            if excess > ROUNDING * capacity and self._counts(excess, step, 0.0):
+                _, was, _ = self._look.drive(joint)
+                found = min(found, -was / (excess - was) if was < 0.0 else 1.0)
+        return found
+
+    def _counts(self, excess: float, step: float, slope: float) -> bool:
+        """Whether a joint would go somewhere in a step with an excess that it should not have."""
+        rate = max(1.0 / step, abs(slope))
+        return excess > TOLERANCE * rate
+
+    def _change(self) -> None:
+        """Stop what has met its stop or falls below its limit, and free what has come to it."""
+        sides = np.array(list(self._moving.values()))
+        velocity = self._velocity(self._look)
+        falls = sides * velocity < 0.0
+        if falls.any():
+            # Not what has only overshot the place at which it comes to rest.
+            jacobian = self._excess.jacobian(self._look, self._moving, list(self._moving))
+            falls &= sides * (jacobian @ velocity) < 0.0
+        angles, stopped = list(self._look.angles), False
+        for (joint, side), is_falling in zip(list(self._moving.items()), falls, strict=True):
+            if side * angles[joint] >= self._stops[joint] - TOLERANCE:
+                angles[joint] = side * self._stops[joint]
+                stopped = True
+                del self._moving[joint]
+            elif is_falling:
+                del self._moving[joint]
+        if stopped:
+            self._take(self._excess.at(angles))
+        self._free()
+
+    # The end
+
+    def _end(self, velocity: Floats, jacobian: Floats) -> bool:
+        """Go to where M = K for all that move, if that is near and ahead; whether it was."""
+        if not (np.diagonal(jacobian) < 0.0).all():
+            return False
+        sides = np.array(list(self._moving.values()))
+        total = np.zeros(len(sides))
+        look = self._look
+        for _ in range(12):
+            try:
+                way = np.linalg.solve(jacobian, -velocity)
+            except np.linalg.LinAlgError:
+                return False
+            total = total + way
+            if not (sides * total >= -TOLERANCE).all() or abs(total).max() > NEAR:
+                return False
+            look = self._after(total)
+            if any(abs(look.angles[i]) > self._stops[i] for i in self._moving):
+                return False
+            velocity = self._velocity(look)
+            if self._is_small(velocity, look):
+                self._take(look)
+                return True
+            jacobian = self._excess.jacobian(look, self._moving, list(self._moving))
+        return False
+
+    def _is_small(self, velocity: Floats, look: Look) -> bool:
+        return all(
+            abs(excess) <= 0.01 * ROUNDING * look.capacity(joint, side)[0]
+            for (joint, side), excess in zip(self._moving.items(), velocity.tolist(), strict=True)
+        )
