@@ -104,19 +104,22 @@ class Carried:
                 excess = tension_excess(self.arm.designs[index], self.load, size, left, right)
             else:
                 excess = float(Fraction(left) + Fraction(right) - Fraction(size))
-            if excess <= 0.0:
-                self._check_that_it_presses(index, left + right)
+            least = self.least_tension(index) if excess <= 0.0 else 0.0
+            if least == size or not left + right > least:
+                raise TensionError(
+                    f'the tensions of the cables that cross joint {index + 1} add up to '
+                    f'{left + right:.6g} N, which must exceed the pull of {least:.6g} N of all '
+                    'that it carries'
+                )
         return excess
 
-    def _check_that_it_presses(self, index: int, total: float) -> None:
-        """Refuse tensions that the dead load exceeds, unless it presses the joint on its ball."""
-        dead, design = self.dead[index], self.arm.designs[index]
-        size = least = dead.size
-        if design.law.carries_more_than_cables:
-            reach = sum(self.arm.stops[: index + 1])
-            least = max(dead.largest_pull(reach), NEGLIGIBLE_PULL * size)
-        if least == size or not total > least:
-            raise TensionError(
-                f'the tensions of the cables that cross joint {index + 1} add up to {total:.6g} '
-                f'N, which must exceed the pull of {least:.6g} N of all that it carries'
-            )
+    def least_tension(self, index: int) -> float:
+        """T in N that has to be exceeded so that a joint is seated, wherever the arm may be.
+
+        It is |P|, or for a law that lets the dead load press the joint on its ball, what it pulls.
+        """
+        dead = self.dead[index]
+        if not self.arm.designs[index].law.carries_more_than_cables:
+            return float(dead.size)
+        reach = sum(self.arm.stops[: index + 1])
+        return max(dead.largest_pull(reach), NEGLIGIBLE_PULL * float(dead.size))

@@ -42,6 +42,16 @@ FIRST_WAY = 1e-2
 MOST_STEPS = 20000
 
 
+def _growth(jacobian: Floats) -> float:
+    """The fastest rate at which the motion grows; below zero where it dies away."""
+    # No eigenvalue is to the right of the discs about the diagonal.
+    diagonal = np.diagonal(jacobian)
+    bound = (diagonal + abs(jacobian).sum(axis=1) - abs(diagonal)).max()
+    if bound < 0.0 or len(diagonal) == 1:
+        return float(bound)
+    return float(np.linalg.eigvals(jacobian).real.max())
+
+
 @dataclass
 class Settled:
     """Where an arm has come to rest."""
@@ -79,13 +89,16 @@ class _Flow:
                 return Settled(self._look, {}, self._moved)
             velocity = self._velocity(self._look)
             jacobian = self._excess.jacobian(self._look, self._moving, list(self._moving))
-            if self._end(velocity, jacobian):
+            growth = _growth(jacobian)
+            if growth < 0.0 and self._end(velocity, jacobian):
                 before = dict(self._moving)
                 if not self._free():
                     return Settled(self._look, before, self._moved)
                 continue
             fastest = float(abs(velocity).max())
             step = step or FIRST_WAY / fastest
+            if growth > 0.0:  # a longer one would take what grows for what has died away
+                step = min(step, 1.0 / growth)
             step = self._advance(velocity, jacobian, step)
         raise ArithmeticError('the arm does not come to rest')
 
@@ -200,8 +213,6 @@ class _Flow:
 
     def _end(self, velocity: Floats, jacobian: Floats) -> bool:
         """Go to where M = K for all that move, if that is near and ahead; whether it was."""
-        if not (np.diagonal(jacobian) < 0.0).all():
-            return False
         sides = np.array(list(self._moving.values()))
         total = np.zeros(len(sides))
         look = self._look

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from ..admissible import check_bend_angle
 from ..errors import ArmError, BendAngleError, TensionError
@@ -18,7 +18,7 @@ Driven = tuple[Slip, Probe]
 
 
 def arm_margins(
-    arm: Arm, bend_angles: list[float], tensions: Mapping[str, float], load: Load = UPRIGHT
+    arm: Arm, bend_angles: Sequence[float], tensions: Mapping[str, float], load: Load = UPRIGHT
 ) -> tuple[float, ...]:
     """Return the signed share of its friction limit that each joint needs to stay where it is.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Mapping, Sequence
 
@@ -68,6 +69,12 @@ class ArmTracker:
         """Where the joints were last, in rad."""
         return tuple(self._angles)
 
+    def copy(self) -> ArmTracker:
+        """Return a tracker that goes on from here on its own, say to try what would be."""
+        other = copy.copy(self)  # nothing that it holds is changed in place, but for this
+        other._single = copy.copy(self._single)
+        return other
+
     def reset(self, bend_angles: Sequence[float]) -> None:
         """Put all joints to angles in rad, and forget how the cables' friction was used.
 
@@ -97,7 +104,8 @@ class ArmTracker:
             If the angle is not a number or beyond the stop; nothing then changes.
         """
         index = check_joint(self._arm, joint)
-        self._angles[index] = check_joint_angle(self._arm, joint, bend_angle)
+        angle = check_joint_angle(self._arm, joint, bend_angle)
+        self._angles = [*self._angles[:index], angle, *self._angles[index + 1 :]]
         self._be_sure_of(index)
         self._frozen = None
         if self._single:
@@ -182,7 +190,7 @@ class ArmTracker:
         return found
 
     def _be_sure_of(self, joint: int) -> None:
-        self._assured[joint] = True
+        self._assured = [*self._assured[:joint], True, *self._assured[joint + 1 :]]
         covariance = self._covariance.copy()  # the states that have it keep theirs
         covariance[joint, :] = covariance[:, joint] = 0.0
         self._covariance = covariance
