@@ -38,6 +38,10 @@ soak: setup ## Stream faulty tensions at the estimator and balance the books (MI
 measure-filter: setup ## Measure the filter on random sessions, beside the tracker (ARGS='--sessions 48')
 	@$(run) cd tools && python -m measure_filter $(ARGS)
 
+.PHONY: measure-arm
+measure-arm: setup ## Hold the arm against brute force on random arms (ARGS='--arms 200')
+	@$(run) python tools/measure_arm.py $(ARGS)
+
 .PHONY: bench
 bench: setup ## Measure the speed beside NumPy, C and a bare relay; tables, and build/bench.json
 	@$(run) cd tools && python -m bench --json ../build/bench.json

@@ -104,7 +104,8 @@ class Follows(NamedTuple):
     """How one tension at a joint follows what it depends on, to first order."""
 
     tension: float
-    """∂T'/∂T by the tension at the base; 0 if the friction at a guide is not used up"""
+    """T'/T. What friction has kept from an earlier sample is so taken to be as unsure as the
+    sample of now, with the same error all along"""
     angles: dict[int, float]
     """∂T'/∂θ in N/rad by the joints whose guides push it"""
 
@@ -115,7 +116,6 @@ def followers(
     """Return how the tensions at the joints, that are as `transmitted`, follow."""
     friction = arm.cable_friction_coefficient
     found: list[list[Follows]] = []
-    share = [1.0] * len(tensions)  # of the pull at the base, as far as it goes through
     pushed: list[dict[int, float]] = [{} for _ in tensions]  # ∂ ln T'/∂θ
     reaching = tensions
     for joint, angle in enumerate(angles):
@@ -131,11 +131,11 @@ def followers(
                 elif at == tension / band:
                     pushed[i] = {**pushed[i], joint: -by_angle}
                 else:
-                    share[i], pushed[i] = 0.0, {}
+                    pushed[i] = {}
         found.append(
             [
                 Follows(
-                    share[i] * at / tensions[i] if tensions[i] else share[i],
+                    at / tensions[i] if tensions[i] else 1.0,
                     {k: at * slope for k, slope in pushed[i].items()},
                 )
                 for i, at in enumerate(here)
