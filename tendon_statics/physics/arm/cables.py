@@ -100,46 +100,34 @@ def transmitted(
     return at_joints
 
 
-class Follows(NamedTuple):
-    """How one tension at a joint follows what it depends on, to first order."""
-
-    tension: float
-    """T'/T. What friction has kept from an earlier sample is so taken to be as unsure as the
-    sample of now, with the same error all along"""
-    angles: dict[int, float]
-    """∂T'/∂θ in N/rad by the joints whose guides push it"""
-
-
-def followers(
+def by_angles(
     arm: Arm, tensions: list[float], angles: list[float], at_joints: AtJoints
-) -> list[list[Follows]]:
-    """Return how the tensions at the joints, that are as `transmitted`, follow."""
+) -> list[list[dict[int, float]]]:
+    """Return ∂T'/∂θ in N/rad, for each joint and cable, by the joints whose guides push it.
+
+    Parameters
+    ----------
+    at_joints : list of list of float
+        As `transmitted` has them at these angles.
+    """
     friction = arm.cable_friction_coefficient
-    found: list[list[Follows]] = []
+    found: list[list[dict[int, float]]] = []
     pushed: list[dict[int, float]] = [{} for _ in tensions]  # ∂ ln T'/∂θ
     reaching = tensions
     for joint, angle in enumerate(angles):
-        here = at_joints[joint]
-        if friction:
-            band = math.exp(friction * abs(angle))
-            for i, (tension, at) in enumerate(zip(reaching, here, strict=True)):
-                if arm.cables[i].last_unit <= joint:
-                    continue
-                by_angle = math.copysign(friction, angle) if angle else friction
-                if at == tension * band:
-                    pushed[i] = {**pushed[i], joint: by_angle}
-                elif at == tension / band:
-                    pushed[i] = {**pushed[i], joint: -by_angle}
-                else:
-                    pushed[i] = {}
+        here, band = at_joints[joint], math.exp(friction * abs(angle))
+        for i, (tension, at) in enumerate(zip(reaching, here, strict=True)):
+            if arm.cables[i].last_unit <= joint:
+                continue
+            by_angle = math.copysign(friction, angle) if angle else friction
+            if at == tension * band:
+                pushed[i] = {**pushed[i], joint: by_angle}
+            elif at == tension / band:
+                pushed[i] = {**pushed[i], joint: -by_angle}
+            else:
+                pushed[i] = {}
         found.append(
-            [
-                Follows(
-                    at / tensions[i] if tensions[i] else 1.0,
-                    {k: at * slope for k, slope in pushed[i].items()},
-                )
-                for i, at in enumerate(here)
-            ]
+            [{k: at * slope for k, slope in pushed[i].items()} for i, at in enumerate(here)]
         )
         reaching = here
     return found

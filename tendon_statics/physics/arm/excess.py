@@ -12,7 +12,7 @@ from ..contact.law import LoadedLaw
 from ..slip import Slip
 from ..tensions import Tensions
 from .arm import Arm
-from .cables import AtJoints, Crossing, Follows, followers, pair_at, transmitted
+from .cables import AtJoints, Crossing, by_angles, pair_at, transmitted
 from .carried import Carried
 
 Floats = NDArray[np.float64]
@@ -71,10 +71,6 @@ class Excess:
         """Take it that the arm has come there, as the friction of the cables remembers."""
         self.at_joints, self._pairs = look.at_joints, look.pairs
 
-    def follows(self, look: Look) -> list[list[Follows]]:
-        """Return how the tensions at the joints follow those at the base, and the angles."""
-        return followers(self.arm, self._tensions, look.angles, look.at_joints)
-
     def _pairs_of(self, at_joints: AtJoints) -> list[Tensions]:
         return [pair_at(*both) for both in zip(self._crossing, at_joints, strict=True)]
 
@@ -104,9 +100,28 @@ class Excess:
             found[index] = lever * design.cable_lever - held
         return found
 
+    def by_base_tensions(self, joint: int, side: float, look: Look) -> list[float]:
+        """∂f/∂T in m of one joint by the tension at the base of every cable.
+
+        What friction has kept at a guide from an earlier sample is taken to be as unsure as the
+        sample of now, with the same error all along.
+        """
+        found = self.by_tensions(joint, side, look)
+        if self.arm.cable_friction_coefficient:
+            pulls = zip(look.at_joints[joint], self._tensions, strict=True)
+            found = [
+                gain * (at / tension if tension else 1.0)
+                for gain, (at, tension) in zip(found, pulls, strict=True)
+            ]
+        return found
+
     def jacobian(self, look: Look, moving: dict[int, float], by: list[int]) -> Floats:
         """∂f/∂θ in N·m/rad, of the joints that move, by joint and side, by those of `by`."""
-        follows = self.follows(look) if self.arm.cable_friction_coefficient else None
+        pushed = (
+            by_angles(self.arm, self._tensions, look.angles, look.at_joints)
+            if self.arm.cable_friction_coefficient
+            else None
+        )
         rows = []
         for i, side in moving.items():
             slope = look.capacity(i, side)[1]
@@ -114,10 +129,10 @@ class Excess:
                 -look.turned[max(i, j)].imag - (slope if j <= i else 0.0) - self._spring(i, j)
                 for j in by
             ]
-            if follows:
+            if pushed:
                 gains = self.by_tensions(i, side, look)
                 for cable in self._crossing[i].left + self._crossing[i].right:
-                    for j, slope in follows[i][cable].angles.items():
+                    for j, slope in pushed[i][cable].items():
                         if j in by:
                             row[by.index(j)] += gains[cable] * slope
             rows.append(row)
@@ -130,7 +145,7 @@ class Excess:
 class Look:
     """The joints of an arm at given bend angles."""
 
-    __slots__ = ('_excess', 'angles', 'at_joints', 'pairs', 'turned', 'turns')
+    __slots__ = ('_capacities', '_excess', 'angles', 'at_joints', 'pairs', 'turned', 'turns')
 
     def __init__(
         self,
@@ -142,6 +157,7 @@ class Look:
         at_joints: AtJoints,
     ) -> None:
         self._excess, self.angles = excess, angles
+        self._capacities: dict[tuple[int, float], tuple[float, float]] = {}
         self.turns, self.turned = turns, turned
         self.pairs, self.at_joints = pairs, at_joints
 
@@ -157,10 +173,13 @@ class Look:
 
     def capacity(self, joint: int, side: float) -> tuple[float, float]:
         """K in N m for slipping to a side, and side ∂K/∂Θ."""
-        law, scale, _ = self._excess.law(joint, side, self.pairs[joint])
-        turn = self.turns[joint]
-        state: tuple[Any, ...] = law.at(turn.real, side * turn.imag)
-        return scale * state[0], scale * state[1]
+        known = self._capacities.get((joint, side))
+        if known is None:
+            law, scale, _ = self._excess.law(joint, side, self.pairs[joint])
+            turn = self.turns[joint]
+            state: tuple[Any, ...] = law.at(turn.real, side * turn.imag)
+            known = self._capacities[joint, side] = scale * state[0], scale * state[1]
+        return known
 
     def velocity(self, joint: int, side: float) -> float:
         """F = M − side K in N m."""

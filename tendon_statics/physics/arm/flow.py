@@ -11,18 +11,21 @@ so the way of all joints together is bounded, and the arm comes to rest.
 
 The motion is smooth while it is the same joints that move. It is followed so, step by step, and
 each step ends where another joint comes to its limit, one falls below it, or one meets its stop.
-Where little is left to go, M = K of those that move is solved by Newton's method.
+Where what is left to go is as good as linear, it is gone in one go: up to the next such event, or
+if there is none, to rest, where M = K of those that move is solved by Newton's method.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .excess import Excess, Look
+from .linear_motion import LinearMotion
 from .rosenbrock import rosenbrock_step
 
 Floats = NDArray[np.float64]
@@ -30,11 +33,17 @@ Floats = NDArray[np.float64]
 ROUNDING = 1e-11
 """Share of K by which M may exceed it at rest"""
 
-TOLERANCE = 2e-6
+TOLERANCE = 1e-5
 """Error of one step in rad that is accepted, and how exactly a step ends where it has to"""
 
-NEAR = 1e-5
-"""Way in rad that is left to Newton's method"""
+NEAR = 0.02
+"""Way in rad from the place of rest, were the motion linear, within which this is tried"""
+
+TINY = 1e-6
+"""Way in rad that is left to Newton's method in any case"""
+
+SMALL = 1e-3
+"""Share of the fastest joint's velocity by which another may seem to fall below its limit"""
 
 FIRST_WAY = 1e-2
 """Way in rad of the fastest joint in the first step that is tried"""
@@ -42,13 +51,21 @@ FIRST_WAY = 1e-2
 MOST_STEPS = 20000
 
 
+def _solved(matrix: Floats, values: Floats) -> Floats:
+    """Solve a linear equation; infinite where it cannot be."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, values), np.float64)
+    except np.linalg.LinAlgError:
+        return np.full(len(values), math.inf)
+
+
 def _growth(jacobian: Floats) -> float:
     """The fastest rate at which the motion grows; below zero where it dies away."""
     # No eigenvalue is to the right of the discs about the diagonal.
-    diagonal = np.diagonal(jacobian)
-    bound = (diagonal + abs(jacobian).sum(axis=1) - abs(diagonal)).max()
-    if bound < 0.0 or len(diagonal) == 1:
-        return float(bound)
+    diagonal = np.asarray(np.diagonal(jacobian))
+    bound = float((diagonal + abs(jacobian).sum(axis=1) - abs(diagonal)).max())
+    if bound < 0.0 or len(jacobian) == 1:
+        return bound
     return float(np.linalg.eigvals(jacobian).real.max())
 
 
@@ -80,20 +97,18 @@ class _Flow:
         self._look = excess.at(angles)
         self._moving: dict[int, float] = {}
         self._moved: set[int] = set()
+        self._at_limit: dict[int, float] = {}
         self._free()
 
     def run(self) -> Settled:
         step = 0.0
         for _ in range(MOST_STEPS):
             if not self._moving:
-                return Settled(self._look, {}, self._moved)
+                return Settled(self._look, self._at_limit, self._moved)
             velocity = self._velocity(self._look)
             jacobian = self._excess.jacobian(self._look, self._moving, list(self._moving))
             growth = _growth(jacobian)
-            if growth < 0.0 and self._end(velocity, jacobian):
-                before = dict(self._moving)
-                if not self._free():
-                    return Settled(self._look, before, self._moved)
+            if growth < 0.0 and self._go_on(velocity, jacobian):
                 continue
             fastest = float(abs(velocity).max())
             step = step or FIRST_WAY / fastest
@@ -207,22 +222,47 @@ class _Flow:
                 del self._moving[joint]
         if stopped:
             self._take(self._excess.at(angles))
+        self._at_limit = {}
         self._free()
 
-    # The end
+    # In one go
 
-    def _end(self, velocity: Floats, jacobian: Floats) -> bool:
-        """Go to where M = K for all that move, if that is near and ahead; whether it was."""
-        sides = np.array(list(self._moving.values()))
-        total = np.zeros(len(sides))
-        look = self._look
-        for _ in range(12):
+    def _go_on(self, velocity: Floats, jacobian: Floats) -> bool:
+        """Go as far as the same joints move, if the motion is as good as linear; whether it was.
+
+        If they come to rest, none is left moving but those at their limit.
+        """
+        rest = -_solved(jacobian, velocity)
+        reach = abs(rest).max()
+        if not reach <= NEAR:
+            return False
+        if reach > TINY:
             try:
-                way = np.linalg.solve(jacobian, -velocity)
+                motion = LinearMotion(jacobian, velocity)
             except np.linalg.LinAlgError:
                 return False
+            time = motion.first(self._changes(motion, jacobian))
+            if not math.isinf(time):
+                return self._leg(motion, time, jacobian)
+        return self._end(rest, jacobian)
+
+    def _leg(self, motion: LinearMotion, time: float, jacobian: Floats) -> bool:
+        """Go on to where the joints that move are no longer the same."""
+        ways, velocities = motion.at(np.array([time]))
+        after = self._after(ways[:, 0])
+        amiss = _solved(jacobian, self._velocity(after) - velocities[:, 0])
+        if not abs(amiss).max() <= TOLERANCE:
+            return False
+        self._take(after)
+        self._change()
+        return True
+
+    def _end(self, way: Floats, jacobian: Floats) -> bool:
+        """Go to where M = K for all that move."""
+        total = np.zeros(len(way))
+        for index in range(12):
             total = total + way
-            if not (sides * total >= -TOLERANCE).all() or abs(total).max() > NEAR:
+            if not abs(total).max() <= 2.0 * NEAR:
                 return False
             look = self._after(total)
             if any(abs(look.angles[i]) > self._stops[i] for i in self._moving):
@@ -230,9 +270,48 @@ class _Flow:
             velocity = self._velocity(look)
             if self._is_small(velocity, look):
                 self._take(look)
+                self._at_limit = dict(self._moving)
+                self._moving.clear()
+                self._free()
+                if self._moving:
+                    self._moving |= self._at_limit
                 return True
-            jacobian = self._excess.jacobian(look, self._moving, list(self._moving))
+            if index:
+                jacobian = self._excess.jacobian(look, self._moving, list(self._moving))
+            way = -_solved(jacobian, velocity)
+            if index == 0 and not abs(way).max() <= TOLERANCE:
+                return False
         return False
+
+    def _changes(
+        self, motion: LinearMotion, jacobian: Floats
+    ) -> Callable[[Floats], NDArray[np.bool_]]:
+        """Return whether, at some times of a motion, other joints move than at its start."""
+        moving, look = list(self._moving), self._look
+        sides = np.array([self._moving[joint] for joint in moving])[:, None]
+        to_go = np.array(
+            [self._stops[joint] - self._moving[joint] * look.angles[joint] for joint in moving]
+        )[:, None]
+        resting, lacking = {}, []
+        for joint in range(len(self._stops)):
+            if joint not in self._moving:
+                side, excess, _ = look.drive(joint)
+                if side * look.angles[joint] < self._stops[joint]:
+                    resting[joint] = side
+                    lacking.append(excess)
+        signs = np.array(list(resting.values()))[:, None]
+        rows = signs * self._excess.jacobian(look, resting, moving) if resting else None
+
+        def changes(times: Floats) -> NDArray[np.bool_]:
+            ways, velocities = motion.at(times)
+            falls = sides * velocities < -SMALL * abs(velocities).max(axis=0)
+            falls &= sides * (jacobian @ velocities) < 0.0
+            found: NDArray[np.bool_] = (falls | (sides * ways >= to_go)).any(axis=0)
+            if rows is not None:
+                found |= (np.array(lacking)[:, None] + rows @ ways > 0.0).any(axis=0)
+            return found
+
+        return changes
 
     def _is_small(self, velocity: Floats, look: Look) -> bool:
         return all(

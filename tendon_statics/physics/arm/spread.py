@@ -45,15 +45,8 @@ def spread_after(excess: Excess, settled: Settled, before: Floats) -> Floats:
     rest = [joint for joint in range(count) if joint not in at]
     jacobian = excess.jacobian(look, settled.at_limit, at)
     by_rest = excess.jacobian(look, settled.at_limit, rest)
-    follows = excess.follows(look)
     by_tension = np.array(
-        [
-            [
-                gain * follows[joint][cable].tension
-                for cable, gain in enumerate(excess.by_tensions(joint, side, look))
-            ]
-            for joint, side in settled.at_limit.items()
-        ]
+        [excess.by_base_tensions(joint, side, look) for joint, side in settled.at_limit.items()]
     )
     try:
         inverse = -np.linalg.inv(jacobian)
