@@ -34,7 +34,18 @@ from .tracker import StickSlipTracker
 from .uncertainty import SlipAngleDistribution, slip_angle_distribution
 
 if TYPE_CHECKING:
-    from .arm import Arm, ArmState, ArmTracker, ArmUnit, Cable, TipPose, arm_margins
+    from .arm import (
+        Arm,
+        ArmState,
+        ArmTracker,
+        ArmUnit,
+        Cable,
+        JointSlip,
+        TipPose,
+        arm_margins,
+        arm_slip_order,
+        arm_tensions_for,
+    )
     from .batch import EquilibriumBatch, solve_batch
     from .calibration import Calibration, LawComparison, calibrate, compare_laws
     from .filter import FilterState, StickSlipFilter
@@ -62,6 +73,7 @@ __all__ = [
     'FilterState',
     'ForceRemainder',
     'JointDesign',
+    'JointSlip',
     'LawComparison',
     'Load',
     'LoadError',
@@ -77,6 +89,8 @@ __all__ = [
     'UnreachableError',
     'admissible_angles',
     'arm_margins',
+    'arm_slip_order',
+    'arm_tensions_for',
     'calibrate',
     'compare_laws',
     'contact_coefficients',
@@ -100,10 +114,13 @@ _NEEDING_NUMPY = {
     'Calibration': '.calibration',
     'EquilibriumBatch': '.batch',
     'FilterState': '.filter',
+    'JointSlip': '.arm',
     'LawComparison': '.calibration',
     'StickSlipFilter': '.filter',
     'TipPose': '.arm',
     'arm_margins': '.arm',
+    'arm_slip_order': '.arm',
+    'arm_tensions_for': '.arm',
     'calibrate': '.calibration',
     'compare_laws': '.calibration',
     'solve_batch': '.batch',
