@@ -26,18 +26,32 @@ from numpy.typing import NDArray
 
 from .excess import Excess, Look
 from .linear_motion import LinearMotion
-from .rosenbrock import rosenbrock_step
+from .rosenbrock import cubic_path, rosenbrock_step
 
 Floats = NDArray[np.float64]
 
 ROUNDING = 1e-11
 """Share of K by which M may exceed it at rest"""
 
+STEP_ERROR = 1e-4
+"""Error of one step in rad that is accepted, as estimated: of an order less, so far too large"""
+
 TOLERANCE = 1e-5
-"""Error of one step in rad that is accepted, and how exactly a step ends where it has to"""
+"""How exactly in rad a step ends where it has to"""
+
+STRAIGHT = 1e-4
+"""How exactly in rad a step ends where a joint with friction of the cables comes to be straight,
+where its guides let no tension be but the one before them"""
+
+JUST_BEYOND = 0.01
+"""Share of a step by which it is to go beyond where other joints move, so that they do"""
 
 NEAR = 0.02
 """Way in rad from the place of rest, were the motion linear, within which this is tried"""
+
+BARELY = 1e-4
+"""Way in rad from a place of rest that is left, where a joint is so slow at first that this is
+tried too"""
 
 TINY = 1e-6
 """Way in rad that is left to Newton's method in any case"""
@@ -94,6 +108,7 @@ def settle(excess: Excess, angles: list[float]) -> Settled:
 class _Flow:
     def __init__(self, excess: Excess, angles: list[float]) -> None:
         self._excess, self._stops = excess, excess.arm.stops
+        self._rubs = excess.arm.cable_friction_coefficient > 0.0
         self._look = excess.at(angles)
         self._moving: dict[int, float] = {}
         self._moved: set[int] = set()
@@ -108,7 +123,7 @@ class _Flow:
             velocity = self._velocity(self._look)
             jacobian = self._excess.jacobian(self._look, self._moving, list(self._moving))
             growth = _growth(jacobian)
-            if growth < 0.0 and self._go_on(velocity, jacobian):
+            if growth and self._go_on(velocity, jacobian, growth):
                 continue
             fastest = float(abs(velocity).max())
             step = step or FIRST_WAY / fastest
@@ -155,7 +170,7 @@ class _Flow:
                 way, error = rosenbrock_step(
                     lambda way: self._velocity(self._after(way)), velocity, jacobian, step
                 )
-                worst = float(abs(error).max()) / TOLERANCE
+                worst = float(abs(error).max()) / STEP_ERROR
             except np.linalg.LinAlgError:
                 worst = math.inf
             if not worst <= 1.0:
@@ -165,8 +180,15 @@ class _Flow:
             after = self._after(way)
             share = self._until(after, velocity, jacobian, step)
             if share < 1.0:
-                step *= max(share, 1e-3)
-                continue
+                path = cubic_path(way, step * velocity, step * self._velocity(after))
+                if path is None:  # rushed through, so that only a shorter step tells
+                    step *= max(share, 1e-3)
+                    continue
+                part = 1.0
+                while share < 1.0:
+                    part *= min(share + JUST_BEYOND, 1.0 - JUST_BEYOND)
+                    after = self._after(path(part))
+                    share = self._until(after, velocity, jacobian, part * step)
             self._take(after)
             self._change()
             growth: float = 0.9 * max(worst, 1e-6) ** (-1.0 / 3.0)
@@ -183,6 +205,8 @@ class _Flow:
             beyond = side * end - stop
             if beyond > TOLERANCE:
                 found = min(found, (stop - side * start) / (side * (end - start)))
+            if self._rubs and min(-side * start, side * end) > STRAIGHT:
+                found = min(found, start / (start - end))
             left = side * after.velocity(joint, side)
             if self._counts(-left, step, jacobian[place, place]):
                 was = side * float(velocity[place])
@@ -227,31 +251,33 @@ class _Flow:
 
     # In one go
 
-    def _go_on(self, velocity: Floats, jacobian: Floats) -> bool:
+    def _go_on(self, velocity: Floats, jacobian: Floats, growth: float) -> bool:
         """Go as far as the same joints move, if the motion is as good as linear; whether it was.
 
         If they come to rest, none is left moving but those at their limit.
         """
         rest = -_solved(jacobian, velocity)
         reach = abs(rest).max()
-        if not reach <= NEAR:
+        if not reach <= (NEAR if growth < 0.0 else BARELY):
             return False
-        if reach > TINY:
+        if reach > TINY or growth > 0.0:
             try:
                 motion = LinearMotion(jacobian, velocity)
             except np.linalg.LinAlgError:
                 return False
             time = motion.first(self._changes(motion, jacobian))
             if not math.isinf(time):
-                return self._leg(motion, time, jacobian)
+                return self._leg(motion, time)
         return self._end(rest, jacobian)
 
-    def _leg(self, motion: LinearMotion, time: float, jacobian: Floats) -> bool:
+    def _leg(self, motion: LinearMotion, time: float) -> bool:
         """Go on to where the joints that move are no longer the same."""
         ways, velocities = motion.at(np.array([time]))
         after = self._after(ways[:, 0])
-        amiss = _solved(jacobian, self._velocity(after) - velocities[:, 0])
-        if not abs(amiss).max() <= TOLERANCE:
+        found = self._velocity(after)
+        fastest = max(abs(motion.velocity).max(), abs(found).max())
+        amiss = abs(found - velocities[:, 0]).max() / fastest * abs(ways).max()
+        if not amiss <= TOLERANCE:
             return False
         self._take(after)
         self._change()
@@ -292,6 +318,9 @@ class _Flow:
         to_go = np.array(
             [self._stops[joint] - self._moving[joint] * look.angles[joint] for joint in moving]
         )[:, None]
+        if self._rubs:
+            to_straight = np.array([-self._moving[joint] * look.angles[joint] for joint in moving])
+            to_go = np.where(to_straight > 0.0, to_straight, to_go[:, 0])[:, None]
         resting, lacking = {}, []
         for joint in range(len(self._stops)):
             if joint not in self._moving:
@@ -307,6 +336,7 @@ class _Flow:
             falls = sides * velocities < -SMALL * abs(velocities).max(axis=0)
             falls &= sides * (jacobian @ velocities) < 0.0
             found: NDArray[np.bool_] = (falls | (sides * ways >= to_go)).any(axis=0)
+            found |= abs(ways).max(axis=0) > 2.0 * NEAR
             if rows is not None:
                 found |= (np.array(lacking)[:, None] + rows @ ways > 0.0).any(axis=0)
             return found

@@ -1,4 +1,4 @@
-"""The motion x' = f + J x from x = 0, which dies away, in closed form; no physics."""
+"""The motion x' = f + J x from x = 0 in closed form; no physics."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class LinearMotion:
     Parameters
     ----------
     jacobian : array
-        J, of which all eigenvalues have negative real parts.
+        J, of which no eigenvalue is zero.
     velocity : array
         f.
 
@@ -31,6 +31,7 @@ class LinearMotion:
     """
 
     def __init__(self, jacobian: Floats, velocity: Floats) -> None:
+        self.velocity = velocity
         self._rates, self._modes = np.linalg.eig(jacobian)
         self._shares = np.linalg.solve(self._modes, velocity)
 
@@ -42,7 +43,7 @@ class LinearMotion:
         return ways.real, velocities.real
 
     def first(self, happens: Callable[[Floats], NDArray[np.bool_]]) -> float:
-        """Return the first time at which something happens, infinite if it does not.
+        """Return the first time at which something happens, infinite if it has died away before.
 
         It is found to a thousandth of itself.
 

@@ -45,3 +45,24 @@ def rosenbrock_step(
     way = way + third
     last = inverse @ (velocity(way) + (first - second - (8.0 / 3.0) * third) / step)
     return way + last, last
+
+
+def cubic_path(way: Floats, at_start: Floats, at_end: Floats) -> Callable[[float], Floats] | None:
+    """Return the way up to a part of a step, by a cubic; None where that is not how it went.
+
+    Parameters
+    ----------
+    way : array
+        Of the whole step.
+    at_start, at_end : array
+        The velocities there, times the step.
+    """
+    if max(abs(at_start).max(), abs(at_end).max()) > 3.0 * abs(way).max():
+        return None
+
+    def path(part: float) -> Floats:
+        rest = 1.0 - part
+        ahead: Floats = part * part * (3.0 - 2.0 * part) * way
+        return ahead + part * rest * (rest * at_start - part * at_end)
+
+    return path
