@@ -33,6 +33,9 @@ Floats = NDArray[np.float64]
 ROUNDING = 1e-11
 """Share of K by which M may exceed it at rest"""
 
+NOTHING = 1e-9
+"""Share of K by which M may exceed it where rounding would decide"""
+
 STEP_ERROR = 1e-4
 """Error of one step in rad that is accepted, as estimated: of an order less, so far too large"""
 
@@ -62,7 +65,7 @@ SMALL = 1e-3
 FIRST_WAY = 1e-2
 """Way in rad of the fastest joint in the first step that is tried"""
 
-MOST_STEPS = 20000
+MOST_STEPS = 5000
 
 
 def _solved(matrix: Floats, values: Floats) -> Floats:
@@ -110,16 +113,22 @@ class _Flow:
         self._excess, self._stops = excess, excess.arm.stops
         self._rubs = excess.arm.cable_friction_coefficient > 0.0
         self._look = excess.at(angles)
+        self._start = self._look.angles
         self._moving: dict[int, float] = {}
-        self._moved: set[int] = set()
         self._at_limit: dict[int, float] = {}
+        self._from: dict[int, float] = {}
+        """Where each of those that move was when it began to"""
+        self._undecided: set[int] = set()
+        """Joints that rounding alone would move"""
         self._free()
 
     def run(self) -> Settled:
         step = 0.0
         for _ in range(MOST_STEPS):
             if not self._moving:
-                return Settled(self._look, self._at_limit, self._moved)
+                pairs = zip(self._start, self._look.angles, strict=True)
+                moved = {joint for joint, (old, new) in enumerate(pairs) if old != new}
+                return Settled(self._look, self._at_limit, moved)
             velocity = self._velocity(self._look)
             jacobian = self._excess.jacobian(self._look, self._moving, list(self._moving))
             growth = _growth(jacobian)
@@ -153,10 +162,11 @@ class _Flow:
             if joint in self._moving:
                 continue
             side, excess, capacity = self._look.drive(joint)
-            at_stop = side * self._look.angles[joint] >= self._stops[joint]
-            if excess > ROUNDING * capacity and not at_stop:
+            angle = self._look.angles[joint]
+            too_much = NOTHING if joint in self._undecided else ROUNDING
+            if excess > too_much * capacity and not side * angle >= self._stops[joint]:
                 self._moving[joint] = side
-                self._moved.add(joint)
+                self._from[joint] = angle
                 found = True
         return found
 
@@ -295,6 +305,8 @@ class _Flow:
                 return False
             velocity = self._velocity(look)
             if self._is_small(velocity, look):
+                if self._goes_back(look):
+                    return True
                 self._take(look)
                 self._at_limit = dict(self._moving)
                 self._moving.clear()
@@ -308,6 +320,26 @@ class _Flow:
             if index == 0 and not abs(way).max() <= TOLERANCE:
                 return False
         return False
+
+    def _goes_back(self, look: Look) -> bool:
+        """Let rest what would end behind where it began to move; whether there is any.
+
+        That is a joint which is beyond its limit by rounding alone while another moves.
+        """
+        behind = [
+            joint
+            for joint, side in self._moving.items()
+            if side * (look.angles[joint] - self._from[joint]) < 0.0
+        ]
+        if not behind:
+            return False
+        angles = list(self._look.angles)
+        for joint in behind:
+            angles[joint] = self._from[joint]
+            del self._moving[joint]
+        self._undecided |= set(behind)
+        self._take(self._excess.at(angles))
+        return True
 
     def _changes(
         self, motion: LinearMotion, jacobian: Floats
