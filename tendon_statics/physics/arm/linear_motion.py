@@ -10,8 +10,11 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-HALVINGS = 32
-"""Parts of an interval of time that are looked at at once"""
+MOST_GROWTH = 300.0
+"""Exponent of what grows beyond which it is no more followed"""
+
+PARTS = 64
+"""Into which an interval of time is cut, to be looked at at once"""
 
 
 class LinearMotion:
@@ -38,6 +41,7 @@ class LinearMotion:
     def at(self, times: Floats) -> tuple[Floats, Floats]:
         """Return way and velocity, a column for each time."""
         growth = np.outer(self._rates, times)
+        growth = np.where(growth.real > MOST_GROWTH, MOST_GROWTH, growth)
         ways = self._modes @ (np.expm1(growth) * (self._shares / self._rates)[:, None])
         velocities = self._modes @ (np.exp(growth) * self._shares[:, None])
         return ways.real, velocities.real
@@ -45,7 +49,7 @@ class LinearMotion:
     def first(self, happens: Callable[[Floats], NDArray[np.bool_]]) -> float:
         """Return the first time at which something happens, infinite if it has died away before.
 
-        It is found to a thousandth of itself.
+        It is found to a sixtieth of itself, on the far side.
 
         Parameters
         ----------
@@ -56,12 +60,12 @@ class LinearMotion:
         count = int(math.log2(8.0 * fast / slow)) + 3
         times = 2.0 ** np.arange(-3, count) / fast
         start = 0.0
-        for _ in range(3):
+        for _ in range(2):
             found = happens(times)
             if not found.any():
                 # Between the places of the finer grid, at whose end it does.
                 return float(times[-1]) if start else math.inf
             place = int(found.argmax())
             start, end = (times[place - 1] if place else start), times[place]
-            times = np.linspace(start, end, HALVINGS + 1)[1:]
+            times = np.linspace(start, end, PARTS + 1)[1:]
         return float(end)
