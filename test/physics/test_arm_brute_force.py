@@ -6,7 +6,17 @@ import random
 import arm_brute
 import pytest
 
-from tendon_statics import ArmTracker, Regime, arm_margins
+from tendon_statics import (
+    Arm,
+    ArmTracker,
+    ArmUnit,
+    Cable,
+    JointDesign,
+    Load,
+    Regime,
+    TendonStaticsError,
+    arm_margins,
+)
 
 ARMS = 8
 
@@ -85,3 +95,47 @@ def test_a_joint_that_comes_to_be_straight_on_its_way_lets_go_of_what_its_guides
         state = tracker.update(tensions, load)
         brute.update(tensions, load)
     assert state.bend_angles == pytest.approx(brute.angles, abs=1e-3)
+
+
+@pytest.mark.parametrize('number', range(60))
+def test_an_arm_out_of_all_proportion_stays_within_its_stops_or_as_it_was(number):
+    draw = random.Random(1000 + number)
+
+    def between(low, high):
+        return math.exp(draw.uniform(math.log(low), math.log(high)))
+
+    start = draw.uniform(0.0, 1.4)
+    units = [
+        ArmUnit(
+            JointDesign(
+                ball_radius=between(1e-4, 1.0),
+                cable_offset=draw.choice((0.0, between(1e-6, 1.0))),
+                com_distance=draw.uniform(-1.0, 1.0),
+                mass=draw.choice((0.0, between(1e-9, 100.0))),
+                friction_coefficient=between(1e-3, 10.0),
+                contact_start_angle=start,
+                contact_end_angle=start + 0.1,
+                max_bend_angle=between(1e-3, 1.5),
+                gravity=9.81,
+                contact_law=draw.choice(arm_brute.LAWS),
+                stiffness=draw.choice((0.0, between(1e-12, 100.0))),
+            ),
+            draw.choice((0.0, between(1e-6, 10.0))),
+        )
+        for _ in range(draw.choice((2, 3, 6)))
+    ]
+    cables = [Cable(side, side, len(units)) for side in 'ls']
+    tracker = ArmTracker(Arm(units, cables, draw.choice((0.0, between(1e-6, 2.0)))))
+    for _ in range(4):
+        before = tracker.bend_angles
+        load = Load.tilted(draw.uniform(-3.0, 3.0), (draw.gauss(0.0, 1.0), draw.gauss(0.0, 1.0)))
+        try:
+            state = tracker.update({'l': between(1.0, 1e4), 's': between(1.0, 1e4)}, load)
+        except TendonStaticsError:
+            assert tracker.bend_angles == before
+            continue
+        for stop, angle, margin in zip(
+            tracker.arm.stops, state.bend_angles, state.slip_margins, strict=True
+        ):
+            assert abs(angle) <= stop
+            assert abs(margin) <= 1.0 + 1e-8 or angle == math.copysign(stop, margin)

@@ -17,6 +17,9 @@ from .carried import Carried
 
 Floats = NDArray[np.float64]
 
+ULPS = 2e-15
+"""Share of what is added up by which a sum may be wrong, some units in the last place"""
+
 
 class Excess:
     """M and K of every joint of an arm as functions of all bend angles.
@@ -43,9 +46,21 @@ class Excess:
         self.arm, self.carried = arm, carried
         self._crossing, self._tensions = crossing, tensions
         self.at_joints = at_joints
-        self._springs = [design.stiffness for design in arm.designs]
+        self.springs = [design.stiffness for design in arm.designs]
+        self.levers = [design.cable_lever for design in arm.designs]
         self._pairs = self._pairs_of(at_joints)
-        self._laws: dict[tuple[int, float], tuple[Tensions, LoadedLaw, float]] = {}
+        self.rounding = self._rounding()
+        self._laws: dict[tuple[int, float], tuple[Tensions, LoadedLaw, float, float]] = {}
+
+    def _rounding(self) -> list[float]:
+        """What M of each joint may be wrong by in N m, from the size of all that it is made of."""
+        sizes, beyond = [], 0.0
+        for joint in range(len(self.springs) - 1, -1, -1):
+            beyond += abs(self.carried.turning[joint])
+            pull = self.levers[joint] * sum(map(abs, self._pairs[joint]))
+            spring = self.springs[joint] * self.arm.stops[joint]
+            sizes.append(ULPS * (pull + beyond + spring))
+        return sizes[::-1]
 
     def at(self, angles: list[float]) -> Look:
         """Look at bend angles in rad."""
@@ -80,9 +95,9 @@ class Excess:
         if kept is None or kept[0] is not pair:
             excess = self.carried.excess(joint, pair)
             slip = Slip(self.carried.upright[joint], excess, *pair, side)
-            kept = pair, slip.law, slip.share
-            self._laws[joint, side] = kept
-        return kept[1], self.arm.designs[joint].ball_radius * sum(pair), kept[2]
+            scale = self.arm.designs[joint].ball_radius * slip.total
+            self._laws[joint, side] = kept = pair, slip.law, scale, slip.share
+        return kept[1:]
 
     def by_tensions(self, joint: int, side: float, look: Look) -> list[float]:
         """∂f/∂T in m of one joint by the tension at it of every cable."""
@@ -139,7 +154,7 @@ class Excess:
         return np.array(rows)
 
     def _spring(self, i: int, j: int) -> float:
-        return self._springs[i] if i == j else 0.0
+        return self.springs[i] if i == j else 0.0
 
 
 class Look:
@@ -163,12 +178,11 @@ class Look:
 
     def moment(self, joint: int) -> float:
         """M in N m."""
-        design = self._excess.arm.designs[joint]
-        left, right = self.pairs[joint]
+        excess, (left, right) = self._excess, self.pairs[joint]
         return (
-            (right - left) * design.cable_lever
+            (right - left) * excess.levers[joint]
             + self.turned[joint].real
-            - design.stiffness * self.angles[joint]
+            - excess.springs[joint] * self.angles[joint]
         )
 
     def capacity(self, joint: int, side: float) -> tuple[float, float]:

@@ -22,6 +22,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import ArmError
 from .excess import Excess, Look
 from .motion import Motion
 from .one_go import go_on
@@ -32,7 +33,7 @@ Floats = NDArray[np.float64]
 FIRST_WAY = 1e-2
 """Way in rad of the fastest joint in the first step that is tried"""
 
-MOST_STEPS = 5000
+MOST_STEPS = 3000
 
 
 @dataclass
@@ -51,8 +52,8 @@ def settle(excess: Excess, angles: list[float]) -> Settled:
 
     Raises
     ------
-    ArithmeticError
-        If it does not come to rest, which would contradict the model.
+    ArmError
+        If it is not followed to rest in `MOST_STEPS`, a hundred times as many as it takes.
     """
     motion = Motion(excess, angles)
     step = 0.0
@@ -69,7 +70,9 @@ def settle(excess: Excess, angles: list[float]) -> Settled:
         if growth > 0.0:  # a longer one would take what grows for what has died away
             step = min(step, 1.0 / growth)
         step = step_on(motion, velocity, jacobian, step)
-    raise ArithmeticError('the arm does not come to rest')
+    raise ArmError(
+        f'the arm is not at rest after {MOST_STEPS} steps: its numbers are out of all proportion'
+    )
 
 
 def _growth(jacobian: Floats) -> float:

@@ -35,6 +35,7 @@ class Motion:
     def __init__(self, excess: Excess, angles: list[float]) -> None:
         self.stops = excess.arm.stops
         self.rubs = excess.arm.cable_friction_coefficient > 0.0
+        self.rounding = excess.rounding
         self.look = excess.at(angles)
         self.moving: dict[int, float] = {}
         self.at_limit: dict[int, float] = {}
@@ -90,8 +91,9 @@ class Motion:
             if joint in self.moving:
                 continue
             side, excess, capacity = self.look.drive(joint)
-            too_much = NOTHING if joint in self._undecided else ROUNDING
-            if excess > too_much * capacity and not self.lean_on_stop(joint, side):
+            share = NOTHING if joint in self._undecided else ROUNDING
+            too_much = max(share * capacity, self.rounding[joint])
+            if excess > too_much and not self.lean_on_stop(joint, side):
                 self.moving[joint] = side
                 self._from[joint] = self.look.angles[joint]
 
@@ -105,7 +107,11 @@ class Motion:
             falls &= sides * (self.jacobian(self.look) @ velocity) < 0.0
         angles, stopped = list(self.look.angles), False
         for (joint, side), is_falling in zip(list(self.moving.items()), falls, strict=True):
-            if side * angles[joint] >= self.stops[joint] - TOLERANCE:
+            if side * (angles[joint] - self._from[joint]) < 0.0:  # has gone back a little
+                angles[joint] = self._from[joint]
+                stopped = True
+                del self.moving[joint]
+            elif side * angles[joint] >= self.stops[joint] - TOLERANCE:
                 angles[joint] = side * self.stops[joint]
                 stopped = True
                 del self.moving[joint]

@@ -100,7 +100,8 @@ def _end(motion: Motion, way: Floats, jacobian: Floats) -> bool:
 def _is_small(motion: Motion, velocity: Floats, look: Look) -> bool:
     """Whether M = K of all that move, to far less than what sets them moving."""
     return all(
-        abs(excess) <= 0.01 * ROUNDING * look.capacity(joint, side)[0]
+        abs(excess)
+        <= max(0.01 * ROUNDING * look.capacity(joint, side)[0], 0.5 * motion.rounding[joint])
         for (joint, side), excess in zip(motion.moving.items(), velocity.tolist(), strict=True)
     )
 

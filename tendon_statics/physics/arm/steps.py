@@ -88,7 +88,9 @@ def _until(motion: Motion, after: Look, velocity: Floats, jacobian: Floats, step
         side, excess, capacity = after.drive(joint)
         if side * after.angles[joint] >= motion.stops[joint]:
             continue
-        if excess > ROUNDING * capacity and _counts(excess, step, 0.0):
+        if excess > max(ROUNDING * capacity, motion.rounding[joint]) and _counts(
+            excess, step, 0.0
+        ):
             _, was, _ = motion.look.drive(joint)
             found = min(found, -was / (excess - was) if was < 0.0 else 1.0)
     return found

@@ -136,6 +136,8 @@ class ArmTracker:
         ------
         TensionError, LoadError
             As `arm_margins` does, but for slack joints; the arm then stays as it was.
+        ArmError
+            If the numbers are so out of proportion that the arm is not followed to rest; likewise.
         """
         at_base = self._arm.check_tensions(tensions)
         at_joints = transmitted(self._arm, at_base, self._angles, self._at_joints)
