@@ -66,7 +66,7 @@ def _held(arm: Arm):
 
 
 def _slips(arm: Arm) -> list[float]:
-    """Times of the updates in which some joint slips, ascending, the best of three each."""
+    """CPU times of the updates in which some joint slips, ascending, the best of three each."""
     best = [math.inf] * SAMPLES
     slips = [False] * SAMPLES
     for _ in range(3):
@@ -77,8 +77,8 @@ def _slips(arm: Arm) -> list[float]:
                 cable.name: 1.0 + cable.sign * pull * (1.0 if cable.last_unit % 2 else 0.5)
                 for cable in arm.cables
             }
-            start = time.perf_counter()
+            start = time.process_time()
             state = tracker.update(tensions)
-            best[index] = min(best[index], time.perf_counter() - start)
+            best[index] = min(best[index], time.process_time() - start)
             slips[index] = Regime.SLIPPING in state.regimes
     return sorted(took for took, slip in zip(best, slips, strict=True) if slip)
