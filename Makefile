@@ -53,6 +53,10 @@ measure-smoothing: setup ## Measure how the filter smooths tensions, in its own 
 measure-consistency: setup ## Measure how well the filter finds a model that is wrong (ARGS='--sessions 4')
 	@$(run) python tools/measure_consistency.py $(ARGS)
 
+.PHONY: measure-arm
+measure-arm: setup ## Hold the arm against brute force on random arms (ARGS='--arms 200')
+	@$(run) python tools/measure_arm.py $(ARGS)
+
 .PHONY: bench
 bench: setup ## Measure the speed beside NumPy, C and a bare relay; tables, and build/bench.json
 	@$(run) cd tools && python -m bench --json ../build/bench.json

@@ -28,6 +28,7 @@ VERBS = {
     'invert': 'the tensions at which the unit is about to slip at a bend angle',
     'paper': "the paper's published case: bisection, errata, identified values, signs, other laws",
     'design': 'check a design file and show what is in it',
+    'arm': 'units in series: where an arm is, and which of its joints slip',
     'plot': 'figures: Eq. (4), the unit, its hysteresis, maps, recordings, calibrations',
 }
 """Verb → what it does; the module of the same name has the rest."""

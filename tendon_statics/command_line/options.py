@@ -115,6 +115,25 @@ def add_load_options(parser: argparse.ArgumentParser) -> None:
         'beside the cables, in the joint frame; default: gravity_direction of the design file, or '
         'upright, and nothing at the tip',
     )
+    add_tilt_options(group)
+    group.add_argument(
+        '--tip-force',
+        type=_finite,
+        nargs=2,
+        metavar=('X', 'Z'),
+        help='force on the unit in N, fixed in the joint frame',
+    )
+    group.add_argument(
+        '--tip-distance',
+        type=_finite,
+        metavar='M',
+        help="where it acts along the unit's axis, in m from the centre of the ball; default: "
+        'tip_distance of the design file',
+    )
+
+
+def add_tilt_options(group: argparse._ActionsContainer) -> None:
+    """Add ``--base-tilt-deg DEG`` and ``--gravity-direction X Y Z``, of which one is given."""
     direction = group.add_mutually_exclusive_group()
     direction.add_argument(
         '--base-tilt-deg',
@@ -129,20 +148,6 @@ def add_load_options(parser: argparse.ArgumentParser) -> None:
         metavar=('X', 'Y', 'Z'),
         help='or the direction of gravity, of any length: X towards cable s, Z along the unit at '
         'zero bend; what Y has is carried by the guides and left out',
-    )
-    group.add_argument(
-        '--tip-force',
-        type=_finite,
-        nargs=2,
-        metavar=('X', 'Z'),
-        help='force on the unit in N, fixed in the joint frame',
-    )
-    group.add_argument(
-        '--tip-distance',
-        type=_finite,
-        metavar='M',
-        help="where it acts along the unit's axis, in m from the centre of the ball; default: "
-        'tip_distance of the design file',
     )
 
 

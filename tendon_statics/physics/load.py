@@ -104,16 +104,7 @@ class Load:
 
     def on(self, design: JointDesign | StackedDesign) -> DeadLoad:
         """Return the forces and moments that it means for one unit."""
-        weight, lever = design.weight, design.com_distance
-        x, _, z = self.gravity_direction
-        force_x, force_z = self.tip_force
-        weight_x, weight_z = weight * x, weight * z
-        return DeadLoad(
-            weight_x + force_x,
-            weight_z + force_z,
-            lever * weight_x + self.tip_distance * force_x,
-            lever * weight_z + self.tip_distance * force_z,
-        )
+        return DeadLoad.of(design, self.gravity_direction, self.tip_force, self.tip_distance)
 
 
 class DeadLoad(NamedTuple):
@@ -130,6 +121,34 @@ class DeadLoad(NamedTuple):
     """Q_x in N·m"""
     moment_z: Any
     """Q_z in N·m"""
+
+    @classmethod
+    def of(
+        cls,
+        design: JointDesign,
+        gravity_direction: tuple[float, float, float],
+        force: tuple[float, float],
+        distance: float,
+    ) -> DeadLoad:
+        """Return it for one unit.
+
+        Parameters
+        ----------
+        gravity_direction : tuple of float
+            Of length 1.
+        force : tuple of float
+            Force (x, z) in N at `distance` in m along the unit's axis.
+        """
+        weight, lever = design.weight, design.com_distance
+        x, _, z = gravity_direction
+        force_x, force_z = force
+        weight_x, weight_z = weight * x, weight * z
+        return cls(
+            weight_x + force_x,
+            weight_z + force_z,
+            lever * weight_x + distance * force_x,
+            lever * weight_z + distance * force_z,
+        )
 
     @property
     def size(self) -> Any:
