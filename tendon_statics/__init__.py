@@ -38,6 +38,7 @@ if TYPE_CHECKING:
         TensionError,
         TensionGradient,
         Tensions,
+        TipForce,
         UnreachableError,
         admissible_angles,
         calibrate,
@@ -50,6 +51,8 @@ if TYPE_CHECKING:
         solve,
         solve_batch,
         tensions_for,
+        tip_force,
+        tip_force_intervals,
     )
     from .recordings.errors import RecordingError
     from .recordings.motion import mark_motion
@@ -86,6 +89,7 @@ __all__ = [
     'TensionError',
     'TensionGradient',
     'Tensions',
+    'TipForce',
     'UnreachableError',
     'admissible_angles',
     'calibrate',
@@ -104,6 +108,8 @@ __all__ = [
     'solve',
     'solve_batch',
     'tensions_for',
+    'tip_force',
+    'tip_force_intervals',
 ]
 
 _NOT_OF_PHYSICS = {

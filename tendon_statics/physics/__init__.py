@@ -29,6 +29,7 @@ from .load import UPRIGHT, Load
 from .solver import residual, solve
 from .state import Equilibrium, Regime
 from .tensions import Tensions
+from .tip_force import TipForce, tip_force, tip_force_intervals
 from .tracker import StickSlipTracker
 from .uncertainty import SlipAngleDistribution, slip_angle_distribution
 
@@ -65,6 +66,7 @@ __all__ = [
     'TensionError',
     'TensionGradient',
     'Tensions',
+    'TipForce',
     'UnreachableError',
     'admissible_angles',
     'calibrate',
@@ -78,6 +80,8 @@ __all__ = [
     'solve',
     'solve_batch',
     'tensions_for',
+    'tip_force',
+    'tip_force_intervals',
 ]
 
 
