@@ -53,6 +53,7 @@ if TYPE_CHECKING:
         tensions_for,
         tip_force,
         tip_force_intervals,
+        tip_force_of_state,
     )
     from .recordings.errors import RecordingError
     from .recordings.motion import mark_motion
@@ -110,6 +111,7 @@ __all__ = [
     'tensions_for',
     'tip_force',
     'tip_force_intervals',
+    'tip_force_of_state',
 ]
 
 _NOT_OF_PHYSICS = {

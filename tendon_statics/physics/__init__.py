@@ -30,6 +30,7 @@ from .solver import residual, solve
 from .state import Equilibrium, Regime
 from .tensions import Tensions
 from .tip_force import TipForce, tip_force, tip_force_intervals
+from .tip_force_state import tip_force_of_state
 from .tracker import StickSlipTracker
 from .uncertainty import SlipAngleDistribution, slip_angle_distribution
 
@@ -82,6 +83,7 @@ __all__ = [
     'tensions_for',
     'tip_force',
     'tip_force_intervals',
+    'tip_force_of_state',
 ]
 
 

@@ -32,8 +32,8 @@ from .tensions import Tensions
 STEP = 1e-6
 """rad, of differences by the angle"""
 
-SEATED = 1e-9
-"""Share of the tensions by which those that just do not seat the joint are raised"""
+SEATED = 1e-4
+"""Share by which tensions have to exceed what seats the joint, for differences by the design"""
 
 NORMAL = NormalDist()
 
@@ -97,11 +97,12 @@ class ForceScores:
 
     def _seated(self, force: float) -> PushedUnit:
         """Return the unit, with both tensions raised by as much as seats it, if anything."""
-        lift, total = self._unit.lift(force), self._unit.total
-        if lift < 0.0:
-            return self._unit
-        raised = 0.5 * (lift + SEATED * (lift + total))
-        return self._unit._replace(tensions=Tensions(*(t + raised for t in self._unit.tensions)))
+        unit = self._unit
+        lift = unit.lift(force)
+        short = lift + SEATED * abs(lift + unit.total)
+        if short <= 0.0:
+            return unit
+        return unit._replace(tensions=Tensions(*(t + 0.5 * short for t in unit.tensions)))
 
     def _of_design(self, quantity: Any, unit: PushedUnit) -> float:
         """Return the variance that a quantity of a pushed unit has by the design's."""

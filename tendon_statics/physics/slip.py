@@ -276,7 +276,7 @@ class Slip:
         return self.probe(angle)[1]
 
     def moment_at(self, angle: Any) -> Any:
-        """Return M in units of r T, ahead, at an angle ahead in rad, be the joint seated or not."""
+        """Return M in units of r T, ahead, at an angle ahead in rad, seated or not."""
         turning = self._of_cosine * self._cosine(angle) + self._of_sine * self._sine(angle)
         return self._offset + turning + self._of_angle * angle
 

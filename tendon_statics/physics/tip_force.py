@@ -2,9 +2,9 @@
 
 Friction takes any value up to its limit, so a unit at rest at an angle tells its tip force as a
 set only: all forces with |M| ≤ K that leave the joint seated. It ends where the unit is about to
-slip to one side or the other, or to come off its ball. While it slips to a side, friction is at its
-limit, and the set is one of these ends. See `pushed_unit` for the closed form and `force_scores`
-for the noise.
+slip to one side or the other, or to come off its ball. While it slips to a side, friction is at
+its limit, and the set is one of these ends. See `pushed_unit` for the closed form and
+`force_scores` for the noise.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ SIDES = {'s': 1.0, 'l': -1.0}
 FAR = 1e6
 """Times the scale of the forces that counts as infinite"""
 
-PLACES = (0.1, 0.4, 1.0, 2.5, 6.0, 20.0, 100.0)
+PLACES = (0.3, 1.0, 4.0, 20.0, 200.0)
 """Of the scale of the forces, to either side, at which the ends under noise are looked for"""
 
-TOLERANCE = 1e-9
+TOLERANCE = 1e-7
 """Share of a force to which an end under noise is found"""
 
 
@@ -229,7 +229,7 @@ def _widened(doubt: Doubt, cuts: Sequence[float], scale: float, level: float) ->
         rate = abs(doubt.bounds(cut + step)[0] - doubt.bounds(cut)[0]) / step
         if 0.0 < rate < math.inf:
             reach = deviations / rate
-            places |= {cut + share * reach for share in (-3.0, -1.5, -0.5, 0.5, 1.5, 3.0)}
+            places |= {cut + share * reach for share in (-1.5, 1.5)}
     middle = 0.5 * (min(cuts) + max(cuts)) if cuts else 0.0
     spread = scale + (0.5 * (max(cuts) - min(cuts)) if cuts else 0.0)
     places |= {middle + side * share * spread for side in BOTH_SIDES for share in PLACES}

@@ -1,4 +1,4 @@
-"""The forces at the tip that friction can hold: against brute force, and what must hold of them."""
+"""The forces at the tip that friction can hold: against brute force, and their properties."""
 
 import dataclasses
 import math
@@ -6,6 +6,7 @@ import random
 from collections import Counter
 
 import brute
+import measure_tip_force
 import numpy as np
 import pytest
 from designs import PRELIMINARY
@@ -15,15 +16,30 @@ from tendon_statics import (
     BendAngleError,
     Load,
     LoadError,
+    Regime,
+    StickSlipFilter,
+    StickSlipTracker,
     TensionError,
     slip_margin,
+    solve,
     tip_force,
     tip_force_intervals,
+    tip_force_of_state,
 )
 
 COUNT = 300
 GRID = np.linspace(-1.0, 1.0, 4001)[1:-1]
 EXACT = 1e-9
+HANGING = dataclasses.replace(
+    PRELIMINARY,
+    com_distance=-0.02,
+    mass=0.08,
+    friction_coefficient=0.4,
+    contact_start_angle=math.radians(20.0),
+    contact_end_angle=math.radians(50.0),
+    cable_offset=0.0025,
+    contact_law='friction_circle',
+)
 
 
 @pytest.fixture(scope='module')
@@ -70,7 +86,8 @@ def test_the_sample_holds_none_one_and_two_intervals_and_rays(pushed):
         seen[law, len(found)] += 1
         seen[law, 'ray'] += any(math.isinf(end) for interval in found for end in interval)
     assert all(seen[law, 1] for law in brute.LAWS)
-    assert seen['merged', 0] and seen['friction_circle', 2] and seen['elastic_seat', 'ray'], seen
+    kinds = ('merged', 0), ('friction_circle', 2), ('elastic_seat', 'ray')
+    assert all(seen[kind] for kind in kinds), seen
 
 
 def test_every_end_is_where_brute_force_finds_one(pushed):
@@ -196,3 +213,153 @@ def test_a_stop_carries_what_friction_does_not():
     ((stop_low, stop_high),) = tip_force(PRELIMINARY, 1.0, 1.9, at_stop=True, **pair).intervals
     assert stop_low == low
     assert stop_high > high
+
+
+# Under noise
+
+ACROSS = {'direction': (1.0, 0.0), 'distance': 0.02}
+
+
+def test_noise_widens_the_set_more_at_a_higher_level_and_not_at_all_where_there_is_none():
+    pair = {'bend_angle': 0.1, **ACROSS}
+    ((low, high),) = tip_force_intervals(PRELIMINARY, 1.0, 1.9, **pair)
+    ends = [(low, high)]
+    for level in (0.5, 0.9, 0.99):
+        noisy = {'tension_stddev': 0.01, 'bend_angle_stddev': 0.01, 'level': level}
+        ends += tip_force_intervals(PRELIMINARY, 1.0, 1.9, **pair, **noisy)
+    assert ends[1] == pytest.approx(ends[0], abs=1e-6)  # each end by itself, at one half
+    assert ends[0][0] > ends[2][0] > ends[3][0]
+    assert ends[0][1] < ends[2][1] < ends[3][1]
+    nearly = tip_force_intervals(PRELIMINARY, 1.0, 1.9, **pair, tension_stddev=1e-9)
+    assert nearly[0] == pytest.approx((low, high), abs=1e-6)
+
+
+def test_without_friction_the_set_is_an_ordinary_interval_of_its_level():
+    smooth = dataclasses.replace(PRELIMINARY, friction_coefficient=1e-3)
+    pair = {'bend_angle': 0.1, **ACROSS}
+    slips = tip_force(smooth, 1.0, 1.0, tension_stddev=0.01, slipping='s', **pair)
+    found = tip_force(smooth, 1.0, 1.0, tension_stddev=0.01, **pair)
+    assert found.intervals[0] == pytest.approx(slips.intervals[0], abs=2e-3)
+    half = 1.959964 * slips.force_stddev
+    assert slips.intervals[0] == pytest.approx((slips.force - half, slips.force + half), rel=1e-3)
+
+
+@pytest.mark.parametrize('law', brute.LAWS)
+def test_the_true_force_is_inside_at_the_stated_rate(law):
+    held, drawn = Counter(), Counter()
+    for seed in range(some_of(80)):
+        truth_draw = random.Random(f'{seed} {law} coverage')
+        truth = measure_tip_force.true_unit(truth_draw, law)
+        for kind in ('end', 'slipping', 'inside'):
+            for _ in range(2):
+                result = measure_tip_force.covered(truth, kind, truth_draw, is_exact=True)
+                drawn[kind] += result is not None
+                held[kind] += bool(result)
+    for kind in ('end', 'slipping'):
+        chance = 4.0 * math.sqrt(0.95 * 0.05 / drawn[kind])
+        assert abs(held[kind] / drawn[kind] - 0.95) < 0.02 + chance, (kind, held, drawn)
+    assert held['inside'] / drawn['inside'] > 0.95 - 4.0 * math.sqrt(0.95 * 0.05 / drawn['inside'])
+
+
+def test_the_probability_of_a_free_tip_is_how_often_zero_is_in_the_set():
+    draw = random.Random(7)
+    # Next to the end of what friction holds at 0.1 rad with a free tip.
+    for tension_s in (1.97, 2.0, 2.02):
+        pair = {'bend_angle': 0.1, **ACROSS}
+        noisy = {'tension_stddev': 0.02, 'bend_angle_stddev': 0.02}
+        found = tip_force(PRELIMINARY, 1.0, tension_s, **pair, **noisy)
+        count = 2000
+        free = 0
+        for _ in range(count):
+            drawn = {**pair, 'bend_angle': draw.gauss(0.1, 0.02)}
+            tensions = draw.gauss(1.0, 0.02), draw.gauss(tension_s, 0.02)
+            free += tip_force(PRELIMINARY, *tensions, **drawn).probability_free
+        assert found.probability_free == pytest.approx(free / count, abs=0.05)
+
+
+def test_the_deviation_at_the_limit_is_the_scatter_of_the_number():
+    draw = random.Random(8)
+    pair = {'bend_angle': 0.1, 'slipping': 's', **ACROSS}
+    found = tip_force(PRELIMINARY, 1.0, 1.9, tension_stddev=0.01, bend_angle_stddev=0.01, **pair)
+    forces = [
+        tip_force(
+            PRELIMINARY,
+            *(draw.gauss(1.0, 0.01), draw.gauss(1.9, 0.01)),
+            **{**pair, 'bend_angle': draw.gauss(0.1, 0.01)},
+        ).force
+        for _ in range(1000)
+    ]
+    assert found.force_stddev == pytest.approx(np.std(forces), rel=0.15)
+
+
+# Of a unit that is followed
+
+
+def slipped():
+    """A tracker's unit that has just slipped towards s, and its state."""
+    tracker = StickSlipTracker(HANGING, 0.0)
+    state = tracker.update(3.0, 6.25)
+    assert state.regime is Regime.SLIPPING
+    return state
+
+
+def test_a_slipping_unit_whose_angle_agrees_tells_a_number():
+    state = slipped()
+    own = tip_force_of_state(state, **ACROSS)
+    assert own.at_limit
+    assert own.force == pytest.approx(0.0, abs=1e-9)  # its angle took the tip for free
+    near = state.bend_angle + 0.01
+    found = tip_force_of_state(state, bend_angle=near, bend_angle_stddev=0.02, **ACROSS)
+    assert found.at_limit
+    assert abs(found.force) > 1e-3
+
+
+def test_an_angle_that_does_not_agree_leaves_the_whole_set():
+    state = slipped()
+    far = state.bend_angle - 0.2
+    found = tip_force_of_state(state, bend_angle=far, bend_angle_stddev=0.01, **ACROSS)
+    assert not found.at_limit
+    assert found.force is None
+    assert found.probability_free < 0.01  # it is held there by something
+
+
+def test_a_held_unit_has_a_set_with_nothing_in_it():
+    state = StickSlipTracker(PRELIMINARY, 0.1).update(1.0, 1.9)
+    found = tip_force_of_state(state, **ACROSS)
+    assert (found.at_limit, found.probability_free) == (False, 1.0)
+    assert found.intervals == tip_force_intervals(PRELIMINARY, 1.0, 1.9, bend_angle=0.1, **ACROSS)
+
+
+def test_at_a_stop_the_force_is_known_to_one_side_only():
+    state = StickSlipTracker(PRELIMINARY).update(1.0, 3.0)
+    assert state.regime is Regime.DRIVEN_TO_STOP
+    found = tip_force_of_state(state, **ACROSS)
+    free = tip_force(PRELIMINARY, 1.0, 3.0, bend_angle=state.bend_angle, at_stop=True, **ACROSS)
+    assert (found.at_limit, found.intervals) == (False, free.intervals)
+    assert found.probability_free == 1.0
+
+
+def test_a_filters_state_brings_its_own_deviation():
+    followed = StickSlipFilter(
+        PRELIMINARY, bend_angle=0.1, bend_angle_stddev=0.02, tension_stddev=0.01
+    )
+    state = followed.update(1.0, 1.9, 0.0)
+    found = tip_force_of_state(state, tension_stddev=0.01, **ACROSS)
+    same = tip_force(
+        *(PRELIMINARY, 1.0, 1.9),
+        bend_angle=state.bend_angle,
+        bend_angle_stddev=state.bend_angle_stddev,
+        tension_stddev=0.01,
+        **ACROSS,
+    )
+    assert found == same
+
+
+def test_a_state_without_an_angle_needs_one_that_was_measured():
+    held = solve(PRELIMINARY, 1.0, 1.5)
+    with pytest.raises(BendAngleError, match='no bend angle'):
+        tip_force_of_state(held, **ACROSS)
+    assert tip_force_of_state(held, bend_angle=0.1, **ACROSS).intervals
+    slack = StickSlipTracker(PRELIMINARY).update(1.0, 0.0)
+    with pytest.raises(TensionError, match='slack'):
+        tip_force_of_state(slack, **ACROSS)

@@ -33,5 +33,9 @@ def real_roots(quadratic: Quadratic) -> list[float]:
         return []
     # The larger of the two without cancellation; their product is c_0 / c_2.
     larger = -0.5 * (c_1 + math.copysign(math.sqrt(discriminant), c_1))
-    roots = {numerator / divisor + 0.0 for numerator, divisor in ((larger, c_2), (c_0, larger)) if divisor}
+    roots = {
+        numerator / divisor + 0.0
+        for numerator, divisor in ((larger, c_2), (c_0, larger))
+        if divisor
+    }
     return sorted(root for root in roots if math.isfinite(root))
