@@ -15,6 +15,7 @@ from ..recordings.recording import Recording
 from ..recordings.replay.bag_output import write_bag
 from ..recordings.replay.estimates import Replay, replay
 from ..recordings.replay.table_output import write_table
+from ..recordings.replay.tip_forces import TipForces
 from .options import (
     add_design_option,
     add_load_options,
@@ -23,6 +24,7 @@ from .options import (
 )
 from .progress import with_progress
 from .recorded_load import recorded_load
+from .recorded_tip_force import recorded_tip_forces, tip_force_facts
 from .recording_options import (
     add_recording_options,
     report_damage,
@@ -30,6 +32,7 @@ from .recording_options import (
 )
 from .replay_text import replay_facts
 from .tables import fact_lines
+from .tip_force_options import add_bend_angle_stddev_option, add_line_options
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -39,6 +42,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_estimation_options(parser)
     add_load_options(parser)
     add_tension_stddev_option(parser, default=None)
+    add_line_options(parser, required=False)
+    add_bend_angle_stddev_option(parser)
     parser.add_argument(
         '--output',
         type=Path,
@@ -85,9 +90,14 @@ def run(options: argparse.Namespace) -> int:
             'is; name another file'
         )
     replayed = replay_from(options, unit, unit.design, recording)
+    facts = replay_facts(replayed, unit.design)
+    tips = None
+    if options.direction is not None:
+        tips = recorded_tip_forces(options, unit, recording)
+        facts = [*facts, *tip_force_facts(tips)]
     if write is not None:
-        write(options.output, replayed, with_progress)
-    print(fact_lines(replay_facts(replayed, unit.design)))
+        write(options.output, replayed, tips, with_progress)
+    print(fact_lines(facts))
     return report_damage(recording)
 
 
@@ -126,13 +136,18 @@ def _writer(path: Path | None) -> _Writer | None:
     return _WRITERS[path.suffix]
 
 
-def _write_table(path: Path, replayed: Replay, progress: Progress) -> None:
-    write_table(path, replayed.columns(), progress)
+def _write_table(path: Path, replayed: Replay, tips: TipForces | None, progress: Progress) -> None:
+    columns = replayed.columns() | ({} if tips is None else tips.columns())
+    write_table(path, columns, progress)
 
 
-_Writer = Callable[[Path, Replay, Progress], None]
+def _write_bag(path: Path, replayed: Replay, _tips: TipForces | None, progress: Progress) -> None:
+    write_bag(path, replayed, progress)
+
+
+_Writer = Callable[[Path, Replay, TipForces | None, Progress], None]
 _WRITERS: dict[str, _Writer] = {
     '.csv': _write_table,
     '.parquet': _write_table,
-    '.mcap': write_bag,
+    '.mcap': _write_bag,
 }
