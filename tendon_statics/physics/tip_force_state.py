@@ -61,7 +61,7 @@ def tip_force_of_state(
     TensionError, LoadError, ValueError
         As `tip_force` does.
     """
-    own_stddev = _own_stddev(state, tension_stddev)
+    own_stddev = stddev_of_angle(state, tension_stddev)
     angle, stddev = bend_angle, bend_angle_stddev
     if angle is None:
         if state.regime is not Regime.SLACK and state.bend_angle is None:
@@ -95,7 +95,7 @@ def tip_force_of_state(
     )
 
 
-def _own_stddev(state: Equilibrium | FilterState, tension_stddev: float) -> float:
+def stddev_of_angle(state: Equilibrium | FilterState, tension_stddev: float) -> float:
     """Return the deviation in rad of a state's own angle, 0 where it is not known."""
     if isinstance(state, Equilibrium):
         return state.bend_angle_stddev(tension_stddev) or 0.0
