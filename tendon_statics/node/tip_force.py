@@ -28,10 +28,11 @@ if TYPE_CHECKING:
 PERIOD = 0.02
 """Least time in s between two of them, each of which takes some 2 ms"""
 
-if not messages.INTERFACES_MISSING:
+# The interfaces may be missing, or older than the node.
+try:
     from tendon_statics_interfaces.msg import TipForce as TipForceMessage
     from tendon_statics_interfaces.srv import SolveTipForce
-else:
+except ImportError:
     TipForceMessage = SolveTipForce = None
 
 
@@ -44,7 +45,13 @@ class TipForces:
         self._next = 0.0
         self._wrench = self._publisher(WrenchStamped, '~/tip_wrench')
         self._forces: Publisher | None = None
-        if TipForceMessage is not None:
+        if TipForceMessage is None:
+            node.get_logger().warning(
+                'No ~/tip_force and ~/solve_tip_force, since tendon_statics_interfaces is not '
+                'there or older than this; build the folder interfaces/ with it: '
+                'colcon build --base-paths . interfaces'
+            )
+        else:
             self._forces = self._publisher(TipForceMessage, '~/tip_force')
             offer(node, SolveTipForce, 'solve_tip_force', self._solve, _refuse)
 
