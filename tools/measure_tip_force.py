@@ -16,9 +16,9 @@ import sys
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-import brute
 import numpy as np
 import synthetic_units
+from brute import LAWS, Case, excesses_under_push, random_case
 
 from tendon_statics import DesignUncertainty, TipForce, tip_force
 
@@ -50,7 +50,7 @@ class Job(NamedTuple):
 class Truth(NamedTuple):
     """A unit and its exact set of forces, by brute force."""
 
-    case: brute.Case
+    case: Case
     angle: float
     direction: np.ndarray
     distance: float
@@ -60,7 +60,7 @@ class Truth(NamedTuple):
 def true_unit(draw: random.Random, law: str) -> Truth:
     """Draw a unit that is pushed across or along its axis, and has a set with an end."""
     while True:
-        case = brute.random_case(draw)
+        case = random_case(draw)
         stop = case.design.max_bend_angle
         angle = draw.uniform(-0.9, 0.9) * stop
         turn = draw.choice((0.5 * math.pi, draw.uniform(-math.pi, math.pi)))
@@ -74,15 +74,13 @@ def true_unit(draw: random.Random, law: str) -> Truth:
 
 
 def exact_set(
-    case: brute.Case, angle: float, direction: np.ndarray, distance: float
+    case: Case, angle: float, direction: np.ndarray, distance: float
 ) -> list[tuple[float, float]]:
     """Return the forces that friction can hold: a fine grid, and halving between its points."""
     scale = case.tension_l + case.tension_s
 
     def held(force: Any) -> Any:
-        towards_s, towards_l, seated = brute.excesses_under_push(
-            case, angle, direction, distance, force
-        )
+        towards_s, towards_l, seated = excesses_under_push(case, angle, direction, distance, force)
         return seated & (towards_s <= 0.0) & (towards_l <= 0.0)
 
     grid = scale * GRID / (1.0 - GRID**2)
@@ -124,7 +122,7 @@ def covered(truth: Truth, kind: str, draw: random.Random, *, is_exact: bool) -> 
         return None
     slipping = ''
     if kind == 'slipping':
-        towards_s, towards_l, _ = brute.excesses_under_push(*truth[:4], force)
+        towards_s, towards_l, _ = excesses_under_push(*truth[:4], force)
         scale = truth.case.design.ball_radius * sum(truth.case[2:4])
         if min(abs(towards_s), abs(towards_l)) > 1e-6 * scale:
             return None  # an end where the seat is lost
@@ -179,7 +177,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument('--workers', type=int, default=len(os.sched_getaffinity(0)))
     options = parser.parse_args(arguments)
     seeds = range(options.seed, options.seed + options.units)
-    jobs = [Job(law, seed, options.draws) for law in brute.LAWS for seed in seeds]
+    jobs = [Job(law, seed, options.draws) for law in LAWS for seed in seeds]
     results = list(synthetic_units.run_all(counts, jobs, options.workers))
     print(
         f'{options.units} units of each law from seed {options.seed}, {options.draws} draws of '
@@ -199,7 +197,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 def by_law(jobs: list[Job], results: list[Any]) -> Iterator[tuple[str, list[Any]]]:
     """Yield the results of each law."""
-    for law in brute.LAWS:
+    for law in LAWS:
         yield law, [row for job, row in zip(jobs, results, strict=True) if job.law == law]
 
 

@@ -4,6 +4,9 @@ All that the force F does is in proportion to it: the moment M, and P_a and P_t,
 dead load presses the unit on its ball and drives it aside. So the forces at which friction is at
 its limit, |M| = K, are roots of quadratics for every contact law; see
 `ContactLaw.forces_at_slip`.
+
+A joint is known by its dead load, and the force by what each newton of it adds to that, so that a
+force that acts on several joints in series is asked of each; what all explain is common to them.
 """
 
 from __future__ import annotations

@@ -314,6 +314,32 @@ def test_a_slipping_unit_whose_angle_agrees_tells_a_number():
     assert abs(found.force) > 1e-3
 
 
+@pytest.mark.parametrize('law', brute.LAWS)
+def test_a_pushed_unit_that_is_followed_gives_its_force_away_when_it_slips(law):
+    """The truth is a tracker that knows of a force; who is asked knows tensions and angle."""
+    draw = random.Random(5)
+    design = dataclasses.replace(HANGING, contact_law=law)
+    tracker, numbers = StickSlipTracker(design), 0
+    pair, force = [3.0, 3.0], 0.0
+    for _ in range(400):
+        pair = [min(max(tension + draw.gauss(0.0, 0.5), 2.0), 6.0) for tension in pair]
+        force = min(max(force + draw.gauss(0.0, 0.05), -0.3), 0.3)
+        state = tracker.update(*pair, Load(tip_force=(force, 0.0), tip_distance=0.02))
+        angle, at_stop = state.bend_angle, state.regime is Regime.DRIVEN_TO_STOP
+        at_stop |= abs(angle) == design.max_bend_angle
+        slipping = ''
+        if state.regime is Regime.SLIPPING and not at_stop and abs(state.slip_margin) > 1 - 1e-9:
+            slipping = 's' if state.slip_margin > 0.0 else 'l'
+        asked = {'bend_angle': angle, 'at_stop': at_stop, **ACROSS}
+        found = tip_force(design, *pair, slipping=slipping, **asked)
+        if slipping:
+            numbers += 1
+            assert found.force == pytest.approx(force, abs=1e-6)
+        else:
+            assert inside(found.intervals, force, 1e-9)
+    assert numbers > 5
+
+
 def test_an_angle_that_does_not_agree_leaves_the_whole_set():
     state = slipped()
     far = state.bend_angle - 0.2
