@@ -40,6 +40,7 @@ FIGURES = {
     'docs/recording.svg': f'plot recording {SESSION}',
     'docs/residual.svg': 'plot residual',
     'docs/tilted.svg': 'plot unit --base-tilt-deg 10',
+    'docs/tip_force.svg': f'plot tip-force {SESSION} --direction 1 0 --distance 0.02',
     'docs/unit.svg': 'plot unit',
 }
 

@@ -87,7 +87,7 @@ def draw_tip_forces(drawing: Figure, recording: Recording, found: TipForces) -> 
     of_force.set_ylim(bottom, top)
     of_force.set_ylabel('force at the tip [N]')
     of_force.legend(loc='lower right', bbox_to_anchor=(1.0, 0.98), ncols=3, frameon=False)
-    of_free.plot(times, found.probability_free, '.', markersize=2.5, color=ORANGE)
+    of_free.plot(times, found.probability_free, color=ORANGE, linewidth=1.2)
     of_free.set_ylim(-0.1, 1.1)
     of_free.set_ylabel('P(free tip)')
     of_free.set_xlabel(label)

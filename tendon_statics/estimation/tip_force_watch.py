@@ -21,12 +21,13 @@ from .settings import Settings
 if TYPE_CHECKING:
     from ..physics import FilterState
 
-MOTION_TIME = 0.1
-"""s over which the measured angle is looked at for motion"""
+MOTION_TIME = 0.5
+"""s over which the measured angle is looked at for motion: both its halves have to see it, which
+sorts out a jump, in which friction does not balance what drives the unit"""
 
-MOTION_DEVIATIONS = 4.0 * math.sqrt(2.0)
-"""Deviations of the angle by which two of it differ where the unit moves: noise alone does so
-once in 16,000"""
+MOTION_DEVIATIONS = 3.0 * math.sqrt(2.0)
+"""Deviations of the angle by which two of it differ where the unit moves: noise alone does so to
+one side once in 700, and seldom in both halves"""
 
 
 class Pushed(NamedTuple):
@@ -44,9 +45,9 @@ class Pushed(NamedTuple):
 class TipForceWatch:
     """Asks of each state what pushes at the tip, with the newest measured angle.
 
-    While the measured angle moves, friction is at its limit to the side to which it does. Without
-    a measured angle, or where the newest is older than the input timeout, the estimated one has to
-    do.
+    While the measured angle moves steadily, friction is at its limit to the side to which it does.
+    Without a measured angle, or where the newest is older than the input timeout, the estimated
+    one has to do.
     """
 
     def __init__(self) -> None:
@@ -72,12 +73,17 @@ class TipForceWatch:
 
     def motion(self, now: float, settings: Settings) -> str:
         """Return the cable towards which the measured angle moves, empty if it does not."""
-        if len(self._angles) < 2 or self._angles[0][0] < now - settings.input_timeout:
+        angles = self._angles
+        if len(angles) < 3 or angles[0][0] < now - settings.input_timeout:
             return ''
-        step = self._angles[-1][1] - self._angles[0][1]
-        if abs(step) <= MOTION_DEVIATIONS * settings.measured_bend_angle_stddev:
-            return ''
-        return 's' if step > 0.0 else 'l'
+        (_, first), (newest_at, last) = angles[0], angles[-1]
+        halfway = newest_at - 0.5 * MOTION_TIME
+        middle = next((angle for at, angle in reversed(angles) if at <= halfway), first)
+        least = MOTION_DEVIATIONS * settings.measured_bend_angle_stddev
+        steps = middle - first, last - middle
+        if min(steps) > least:
+            return 's'
+        return 'l' if max(steps) < -least else ''
 
     def ask(
         self, state: Equilibrium | FilterState, settings: Settings, now: float

@@ -28,25 +28,34 @@ def test_a_measured_angle_at_rest_gives_a_set():
     assert pushed.found == tip_force(PRELIMINARY, 1.0, 1.9, bend_angle=0.2, **ACROSS, **NOISE)
 
 
-@pytest.mark.parametrize(('speed', 'side'), [(2.0, 's'), (-2.0, 'l'), (0.1, '')])
+def moved(watch, path, until=1.0):
+    """Measure an angle 100 times a second, up to a time in s."""
+    for index in range(int(100.0 * until) + 1):
+        watch.note_angle(path(0.01 * index), 0.01 * index, SETTINGS)
+
+
+@pytest.mark.parametrize(('speed', 'side'), [(0.4, 's'), (-0.4, 'l'), (0.05, '')])
 def test_while_the_measured_angle_moves_the_force_is_a_number(speed, side):
     watch = TipForceWatch()
-    for index in range(11):
-        watch.note_angle(speed * 0.01 * index, 0.01 * index, SETTINGS)
-    assert watch.motion(0.1, SETTINGS) == side
-    pushed = watch.ask(held(), SETTINGS, 0.1)
+    moved(watch, lambda time: speed * time)
+    assert watch.motion(1.0, SETTINGS) == side
+    pushed = watch.ask(held(), SETTINGS, 1.0)
     assert pushed.found.at_limit == bool(side)
     if side:
         assert pushed.found.force_stddev > 0.0
 
 
+def test_a_jump_is_no_steady_motion():
+    for until in (0.52, 0.6, 0.8, 0.95):
+        watch = TipForceWatch()
+        moved(watch, lambda time: 0.3 if time > 0.5 else 0.0, until)
+        assert watch.motion(until, SETTINGS) == ''
+
+
 def test_motion_of_long_ago_is_forgotten():
     watch = TipForceWatch()
-    for index in range(11):
-        watch.note_angle(0.02 * index, 0.01 * index, SETTINGS)
-    for index in range(11, 40):
-        watch.note_angle(0.2, 0.01 * index, SETTINGS)
-    assert watch.motion(0.4, SETTINGS) == ''
+    moved(watch, lambda time: min(0.4 * time, 0.2))
+    assert watch.motion(1.0, SETTINGS) == ''
 
 
 def test_an_old_angle_gives_way_to_the_estimate():

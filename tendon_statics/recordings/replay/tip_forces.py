@@ -5,13 +5,16 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Sequence
+from contextlib import suppress
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...estimation.settings import Settings
-from ...physics import DesignUncertainty, Load, LoadError, TensionError, tip_force
+from ...estimation.tip_force_watch import TipForceWatch
+from ...physics import BendAngleError, DesignUncertainty, Load, LoadError, TensionError, tip_force
 from ...physics.load import push_along
 from ..errors import RecordingError
 from ..progress import Progress, unseen
@@ -81,7 +84,8 @@ def tip_forces(
 
     A recorded tip force is not taken for known; it is what the answer is held against. Samples
     with the state ``slipping`` are at the limit of friction to the side to which the angle goes
-    next. Next to a stop the stop is taken to carry what friction does not.
+    next; without states those are whose angle moves steadily, as for the node. Next to a stop the
+    stop is taken to carry what friction does not.
 
     Parameters
     ----------
@@ -112,7 +116,7 @@ def tip_forces(
     bare = dataclasses.replace(recording, tip_force_x=None, tip_force_z=None)
     loads = bare.loads(load)
     tensions = usable(bare, settings).tensions()
-    sides = _sides(recording)
+    sides = _sides(recording, settings, bend_angle_stddev)
     count = len(recording) if most is None else min(most, len(recording))
     places = np.unique(np.linspace(0, len(recording) - 1, count).round().astype(np.int64))
     rows = []
@@ -161,14 +165,23 @@ def _along(recording: Recording, x: float, z: float) -> Floats | None:
     return along
 
 
-def _sides(recording: Recording) -> list[str]:
+def _sides(recording: Recording, settings: Settings, bend_angle_stddev: float) -> list[str]:
     """Return towards which cable each sample is slipping, empty of those that are not."""
     sides = [''] * len(recording)
-    if recording.state is None or recording.bend_angle is None:
-        return sides
-    known = np.flatnonzero(np.isfinite(recording.bend_angle))
-    for place, after in zip(known[:-1].tolist(), known[1:].tolist(), strict=True):
-        if recording.state[place] == SLIPPING:
-            step = recording.bend_angle[after] - recording.bend_angle[place]
-            sides[place] = 's' if step > 0.0 else 'l' if step < 0.0 else ''
+    assert recording.bend_angle is not None
+    known = np.flatnonzero(np.isfinite(recording.bend_angle)).tolist()
+    angles = recording.bend_angle.tolist()
+    if recording.state is not None:
+        for place, after in pairwise(known):
+            if recording.state[place] == SLIPPING:
+                step = angles[after] - angles[place]
+                sides[place] = 's' if step > 0.0 else 'l' if step < 0.0 else ''
+    elif recording.time is not None and not recording.disorder:
+        settings = dataclasses.replace(settings, measured_bend_angle_stddev=bend_angle_stddev)
+        watch = TipForceWatch()
+        for place in known:
+            time = float(recording.time[place])
+            with suppress(BendAngleError):
+                watch.note_angle(angles[place], time, settings)
+                sides[place] = watch.motion(time, settings)
     return sides
