@@ -389,3 +389,13 @@ def test_a_state_without_an_angle_needs_one_that_was_measured():
     slack = StickSlipTracker(PRELIMINARY).update(1.0, 0.0)
     with pytest.raises(TensionError, match='slack'):
         tip_force_of_state(slack, **ACROSS)
+
+
+def test_a_filter_that_has_its_unit_slipping_tells_a_number():
+    followed = StickSlipFilter(HANGING, tension_stddev=0.002, lag=0.05)
+    for index in range(150):
+        state = followed.update(3.0, 5.8 + 0.003 * index, 0.01 * index)
+    assert state.regime is Regime.SLIPPING
+    found = tip_force_of_state(state, tension_stddev=0.002, **ACROSS)
+    assert found.at_limit
+    assert abs(found.force) < 4.0 * found.force_stddev
