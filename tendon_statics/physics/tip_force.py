@@ -10,29 +10,20 @@ its limit, and the set is one of these ends. See `pushed_unit` for the closed fo
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from itertools import pairwise
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from .admissible import Interval, check_bend_angle
 from .design import JointDesign
 from .design_uncertainty import DesignUncertainty
-from .force_scores import NORMAL, Doubt, ForceScores, Noise
+from .force_ends import STEP, forces_within
+from .force_scores import Doubt, ForceScores, Noise
 from .load import UPRIGHT, Load, push_along
 from .pushed_unit import BOTH_SIDES, PushedUnit
 from .tensions import check_taut, check_tensions
 
 SIDES = {'s': 1.0, 'l': -1.0}
 """Cable to which a unit may slip → side"""
-
-FAR = 1e6
-"""Times the scale of the forces that counts as infinite"""
-
-PLACES = (0.3, 1.0, 4.0, 20.0, 200.0)
-"""Of the scale of the forces, to either side, at which the ends under noise are looked for"""
-
-TOLERANCE = 1e-7
-"""Share of a force to which an end under noise is found"""
 
 
 class TipForce(NamedTuple):
@@ -175,7 +166,10 @@ def tip_force(
     for side in sides:
         cuts += unit.forces_at_limit(side)
     return TipForce(
-        _widened(doubt, cuts, unit.total, level), level, doubt.probability(0.0), at_limit=False
+        forces_within(doubt, cuts, unit.total, level),
+        level,
+        doubt.probability(0.0),
+        at_limit=False,
     )
 
 
@@ -189,10 +183,12 @@ def _at_limit(unit: PushedUnit, load: Load, noise: Noise, level: float, side: fl
         return TipForce(points, level, float(0.0 in forces), True, force, stddev)
     scores = ForceScores(unit, load, noise)
     doubt = Doubt(scores, (), side)
-    intervals = _widened(doubt, forces, unit.total, level)
+    intervals = forces_within(doubt, forces, unit.total, level)
     stddev = None
     if force is not None:
-        slope = _slope(lambda at: scores.towards(at, side), force, unit.total)
+        step = STEP * (unit.total + abs(force))
+        before, after = (scores.towards(force + by, side) for by in (-step, step))
+        slope = (after - before) / (2.0 * step)
         stddev = 1.0 / abs(slope) if slope else None
     return TipForce(intervals, level, doubt.probability(0.0), True, force, stddev)
 
@@ -200,69 +196,3 @@ def _at_limit(unit: PushedUnit, load: Load, noise: Noise, level: float, side: fl
 def _check_deviation(name: str, value: float, unit: str) -> None:
     if not 0.0 <= value < math.inf:
         raise ValueError(f'{name} is {value!r} {unit}, allowed is 0 or more')
-
-
-def _slope(function: Callable[[float], float], place: float, scale: float) -> float:
-    step = 1e-6 * (scale + abs(place))
-    return (function(place + step) - function(place - step)) / (2.0 * step)
-
-
-def _widened(doubt: Doubt, cuts: Sequence[float], scale: float, level: float) -> list[Interval]:
-    """Return the forces with a doubt up to a level.
-
-    Parameters
-    ----------
-    cuts : sequence of float
-        Ends of the exact set in N, near which the others are.
-    scale : float
-        Of the forces, in N.
-    """
-
-    def beyond(force: float) -> float:
-        return doubt.beyond(force, level)
-
-    deviations = NORMAL.inv_cdf(0.5 * (1.0 + level))
-    places = {0.0}
-    for cut in cuts:
-        places.add(cut)
-        step = 1e-6 * (scale + abs(cut))
-        rate = abs(doubt.bounds(cut + step)[0] - doubt.bounds(cut)[0]) / step
-        if 0.0 < rate < math.inf:
-            reach = deviations / rate
-            places |= {cut + share * reach for share in (-1.5, 1.5)}
-    middle = 0.5 * (min(cuts) + max(cuts)) if cuts else 0.0
-    spread = scale + (0.5 * (max(cuts) - min(cuts)) if cuts else 0.0)
-    places |= {middle + side * share * spread for side in BOTH_SIDES for share in PLACES}
-    places |= {middle - FAR * spread, middle + FAR * spread}
-    points = [(place, beyond(place)) for place in sorted(places)]
-    found: list[Interval] = []
-    start = -math.inf if points[0][1] <= 0.0 else math.nan
-    for (low, at_low), (high, at_high) in pairwise(points):
-        if at_low <= 0.0 < at_high:
-            found.append((start, _crossing(beyond, (low, at_low), (high, at_high))))
-        elif at_high <= 0.0 < at_low:
-            start = _crossing(beyond, (low, at_low), (high, at_high))
-    if points[-1][1] <= 0.0:
-        found.append((start, math.inf))
-    return found
-
-
-def _crossing(
-    function: Callable[[float], float], low: tuple[float, float], high: tuple[float, float]
-) -> float:
-    """Find where a function changes sign between two places, by the Illinois rule, or halving."""
-    for step in range(200):
-        (left, at_left), (right, at_right) = low, high
-        if right - left <= TOLERANCE * max(abs(left), abs(right), 1e-3):
-            break
-        place = right - at_right * (right - left) / (at_right - at_left)
-        if step % 4 == 3 or not left < place < right:
-            place = 0.5 * (left + right)
-        value = function(place)
-        if value == 0.0:
-            return place
-        if (value > 0.0) == (at_right > 0.0):
-            low, high = (left, 0.5 * at_left), (place, value)
-        else:
-            low, high = (place, value), (right, 0.5 * at_right)
-    return 0.5 * (low[0] + high[0])
