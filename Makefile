@@ -34,6 +34,13 @@ MINUTES ?= 5
 soak: setup ## Stream faulty tensions at the estimator and balance the books (MINUTES=5)
 	@$(run) python tools/soak.py --minutes $(MINUTES)
 
+# How often to run the tests of the node beside busy loops.
+RUNS ?= 10
+
+.PHONY: steady
+steady: setup ## Run the tests of the node beside four busy loops, ten times (RUNS=10)
+	@$(run) python tools/steady.py --runs $(RUNS)
+
 .PHONY: measure-filter
 measure-filter: setup ## Measure the filter on random sessions, beside the tracker (ARGS='--sessions 48')
 	@$(run) cd tools && python -m measure_filter $(ARGS)
