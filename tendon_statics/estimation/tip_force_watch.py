@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from ..physics import (
     BendAngleError,
@@ -15,11 +15,8 @@ from ..physics import (
     tip_force_of_state,
 )
 from ..physics.admissible import check_bend_angle
-from ..physics.tip_force_state import stddev_of_angle
+from ..physics.tip_force_state import StateUnderNoise, stddev_of_angle
 from .settings import Settings
-
-if TYPE_CHECKING:
-    from ..physics import FilterState
 
 MOTION_TIME = 0.5
 """s over which the measured angle is looked at for motion: both its halves have to see it, which
@@ -86,7 +83,7 @@ class TipForceWatch:
         return 'l' if max(steps) < -least else ''
 
     def ask(
-        self, state: Equilibrium | FilterState, settings: Settings, now: float
+        self, state: Equilibrium | StateUnderNoise, settings: Settings, now: float
     ) -> Pushed | None:
         """Return what a state tells of the tip force; None where it tells nothing.
 

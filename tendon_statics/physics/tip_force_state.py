@@ -4,24 +4,59 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from .admissible import check_bend_angle, slip_margin
+from .design import JointDesign
 from .design_uncertainty import DesignUncertainty
 from .errors import BendAngleError
 from .force_scores import NORMAL
+from .load import Load
 from .state import Equilibrium, Regime
 from .tip_force import TipForce, tip_force
-
-if TYPE_CHECKING:
-    from .filter import FilterState
 
 SAME_ANGLE = 1e-9
 """rad within which two angles that are exact are the same"""
 
 
+class StateUnderNoise(Protocol):
+    """What is known of a unit whose angle has a deviation, such as a `FilterState`."""
+
+    @property
+    def design(self) -> JointDesign:
+        """The unit's design."""
+
+    @property
+    def load(self) -> Load:
+        """What acts beside the cables."""
+
+    @property
+    def regime(self) -> Regime:
+        """What the tensions mean for the unit."""
+
+    @property
+    def tension_l(self) -> float:
+        """In N."""
+
+    @property
+    def tension_s(self) -> float:
+        """In N."""
+
+    @property
+    def bend_angle(self) -> float | None:
+        """θ in rad."""
+
+    @property
+    def bend_angle_stddev(self) -> float | None:
+        """In rad."""
+
+    @property
+    def angle_assured(self) -> bool:
+        """Whether the unit cannot have moved unseen."""
+
+
 def tip_force_of_state(
-    state: Equilibrium | FilterState,
+    state: Equilibrium | StateUnderNoise,
     *,
     direction: Sequence[float],
     distance: float,
@@ -95,7 +130,7 @@ def tip_force_of_state(
     )
 
 
-def stddev_of_angle(state: Equilibrium | FilterState, tension_stddev: float) -> float:
+def stddev_of_angle(state: Equilibrium | StateUnderNoise, tension_stddev: float) -> float:
     """Return the deviation in rad of a state's own angle, 0 where it is not known."""
     if isinstance(state, Equilibrium):
         return state.bend_angle_stddev(tension_stddev) or 0.0
