@@ -84,11 +84,17 @@ def add_tension_stddev_option(
     )
 
 
-def tension_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
-    """Return the option, or what the design file says, or the default, in N."""
+def tension_stddev_of(options: argparse.Namespace, unit: Unit) -> float | None:
+    """Return the option, or what the design file says, in N; None where neither does."""
     if options.tension_stddev is not None:
         return float(options.tension_stddev)
-    return float(unit.get('tension_stddev') or TENSION_STDDEV)
+    stddev = unit.get('tension_stddev')
+    return float(stddev) if stddev else None
+
+
+def tension_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
+    """Return the same, or the default where there is none."""
+    return tension_stddev_of(options, unit) or TENSION_STDDEV
 
 
 def add_load_options(parser: argparse.ArgumentParser) -> None:

@@ -6,10 +6,11 @@ import math
 
 import numpy as np
 
+from ..estimation.estimate import Remark
 from ..physics import JointDesign
 from ..recordings.hints import hints
 from ..recordings.recording import Recording
-from ..recordings.replay.estimates import VALID, Replay
+from ..recordings.replay.result import VALID, Replay
 from .load_text import setting_facts
 from .tables import Facts
 
@@ -22,8 +23,10 @@ def replay_facts(replay: Replay, design: JointDesign) -> Facts:
         *setting_facts(design, replay.load),
         ('estimation', replay.estimation),
         ('regimes', _regimes(replay)),
+        *_noise_facts(replay),
         *_invalid_facts(replay),
         *_angle_facts(replay),
+        *_band_facts(replay),
     ]
 
 
@@ -63,6 +66,37 @@ def _regimes(replay: Replay) -> str:
         f'{names[index]} {counts[index]} ({100.0 * counts[index] / len(replay.recording):.4g} %)'
         for index in np.argsort(-counts, kind='stable')
     )
+
+
+def _noise_facts(replay: Replay) -> Facts:
+    """Whether believing each sample is safe."""
+    if not replay.noise_risks:
+        return []
+    return [('warning', f'{Remark.NOISE.value} ({replay.noise_risks} of {len(replay.recording)})')]
+
+
+def _band_facts(replay: Replay) -> Facts:
+    """How wide the intervals are, and how often the measured angle lies within."""
+    if replay.interval is None:
+        return []
+    low, high = replay.interval
+    known = np.isfinite(low)
+    if not known.any():
+        return []
+    title = f'{100.0 * replay.confidence:.4g} % interval'
+    facts = [(title, f'{_degrees(float(np.mean((high - low)[known])))} wide in the mean')]
+    measured = replay.recording.bend_angle
+    if measured is not None and (both := known & np.isfinite(measured)).any():
+        spread = 2.0 * replay.measured_stddev
+        within = np.mean(((low - spread <= measured) & (measured <= high + spread))[both])
+        facts.append(
+            (
+                'within it',
+                f'{100.0 * within:.4g} % of the measured angles, give or take two deviations of '
+                f'the sensor, {_degrees(spread)}',
+            )
+        )
+    return facts
 
 
 def _invalid_facts(replay: Replay) -> Facts:

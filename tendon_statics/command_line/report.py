@@ -106,7 +106,9 @@ def run(options: argparse.Namespace) -> int:
         calibration = fit.calibration
         design, of = calibration.design or start, 'the fitted design'
         recording = corrected(recording, calibration.cells or AS_MEASURED)
-        if calibration.design is None:
+        if calibration.design is not None:
+            unit = unit.with_uncertainty(calibration.uncertainty)
+        else:
             of = f'{_start_name(options)}, since the fit does not determine a design'
         fitted = _calibration_part(fit, recording, _start_name(options))
     replayed = replay_from(options, unit, design, recording)

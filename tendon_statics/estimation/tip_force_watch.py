@@ -97,6 +97,7 @@ class TipForceWatch:
             'distance': settings.tip_distance,
             'tension_stddev': settings.tension_stddev,
             'bend_angle_stddev': stddev,
+            'design_covariance': settings.design_uncertainty,
             'level': settings.tip_force_level,
         }
         slipping = '' if angle is None else self.motion(now, settings)

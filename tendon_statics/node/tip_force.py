@@ -15,8 +15,9 @@ from rclpy.qos import QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from std_msgs.msg import Header
 
+from ..estimation.estimate import Estimate
 from ..estimation.tip_force_watch import Pushed, TipForceWatch
-from ..physics import Equilibrium, TendonStaticsError, TipForce, tip_force
+from ..physics import TendonStaticsError, TipForce, tip_force
 from ..physics.load import push_along
 from .outputs import messages
 from .outputs.publishers import OUTPUT_DEPTH
@@ -78,10 +79,8 @@ class TipForces:
         """Forget what was measured."""
         self._watch.forget()
 
-    def publish(
-        self, state: Equilibrium, stamp: Callable[[], Time], *, load_assured: bool
-    ) -> None:
-        """Publish what a state tells, if it does, somebody listens, and it is time again."""
+    def publish(self, estimate: Estimate, stamp: Callable[[], Time]) -> None:
+        """Publish what an estimate tells, if it does, somebody listens, and it is time again."""
         now = time.monotonic()
         listeners = [
             publisher
@@ -91,7 +90,7 @@ class TipForces:
         if not listeners or now < self._next:
             return
         settings = self._node.unit.settings
-        pushed = self._watch.ask(state, settings, now)
+        pushed = self._watch.ask(estimate, settings, now)
         if pushed is None:
             return
         self._next = now + PERIOD
@@ -100,7 +99,11 @@ class TipForces:
         if self._forces is not None:
             self._forces.publish(
                 tip_force_message(
-                    header, pushed, direction, settings.tip_distance, load_assured=load_assured
+                    header,
+                    pushed,
+                    direction,
+                    settings.tip_distance,
+                    load_assured=estimate.known.is_assured,
                 )
             )
         wrench = tip_wrench_message(header, pushed, direction)
@@ -129,6 +132,7 @@ class TipForces:
                 load=known.load,
                 tension_stddev=settings.tension_stddev,
                 bend_angle_stddev=settings.measured_bend_angle_stddev,
+                design_covariance=settings.design_uncertainty,
                 level=settings.tip_force_level,
                 slipping=request.slipping,
                 at_stop=request.at_stop,

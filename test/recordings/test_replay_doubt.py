@@ -9,6 +9,7 @@ from designs import PRELIMINARY
 from programs import run
 
 from tendon_statics import Recording
+from tendon_statics.estimation.methods import METHODS
 from tendon_statics.estimation.settings import Settings
 from tendon_statics.estimation.unit_estimator import KnownLoad, UnitEstimator
 from tendon_statics.physics import UPRIGHT, Load
@@ -27,23 +28,28 @@ CASES = {
 }
 
 
-def tracked(time, tension_l, tension_s, settings=SETTINGS, **options):
+def tracked(time, tension_l, tension_s, settings=SETTINGS, estimation='tracking', **options):
     recording = Recording(tension_l=tension_l, tension_s=tension_s, time=time)
-    return replay(PRELIMINARY, recording, 'tracking', settings=settings, **options)
+    return replay(PRELIMINARY, recording, estimation, settings=settings, **options)
 
 
+REMEMBERING = [name for name, method in METHODS.items() if method.remembers]
+
+
+@pytest.mark.parametrize('estimation', REMEMBERING)
 @pytest.mark.parametrize('case', CASES)
-def test_its_angle_is_not_assured_any_more(case):
-    found = tracked(*CASES[case])
+def test_its_angle_is_not_assured_any_more(case, estimation):
+    found = tracked(*CASES[case], estimation=estimation)
     assert found.angle_assured[0]
     assert not found.angle_assured[1:].any()
     assert found.bend_angle[-1] == 0.0
 
 
+@pytest.mark.parametrize('estimation', REMEMBERING)
 @pytest.mark.parametrize('case', CASES)
-def test_node_and_replay_say_the_same(case):
+def test_node_and_replay_say_the_same(case, estimation):
     """The node's estimator, fed with the same samples at the same times."""
-    unit, expected = UnitEstimator(SETTINGS, 'tracking'), []
+    unit, expected = UnitEstimator(SETTINGS, estimation), []
     for time, *tensions in zip(*CASES[case], strict=True):
         try:
             result = unit.take(*tensions, KnownLoad(UPRIGHT), time, time)
@@ -51,7 +57,7 @@ def test_node_and_replay_say_the_same(case):
             expected.append(('invalid', error.reason.value, False))
         else:
             expected.append((result.regime.value, 'valid', result.angle_assured))
-    found = tracked(*CASES[case])
+    found = tracked(*CASES[case], estimation=estimation)
     columns = (found.regime.tolist(), found.validity.tolist(), found.angle_assured.tolist())
     assert list(zip(*columns, strict=True)) == expected
 
