@@ -155,4 +155,5 @@ def _draw_regimes(axes: Axes, times: Any, replayed: Replay) -> None:
 
 
 def _legend(axes: Axes) -> None:
-    axes.legend(loc='lower right', bbox_to_anchor=(1.0, 0.97), ncols=3, frameon=False)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc='lower right', bbox_to_anchor=(1.0, 0.97), ncols=3, frameon=False)

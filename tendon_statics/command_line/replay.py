@@ -94,7 +94,7 @@ def run(options: argparse.Namespace) -> int:
             'is; name another file'
         )
     replayed = replay_from(options, unit, unit.design, recording)
-    facts = replay_facts(replayed, unit.design)
+    facts = replay_facts(replayed, unit, unit.design)
     tips = None
     if options.direction is not None:
         tips = recorded_tip_forces(options, unit, recording)
@@ -110,6 +110,7 @@ def replay_from(
     unit: Unit,
     design: JointDesign,
     recording: Recording,
+    progress: Progress = with_progress,
 ) -> Replay:
     """Replay a recording as the options and the unit's file ask for, with a design of it."""
     estimation = options.estimation or unit.get('estimation') or ESTIMATIONS[0]
@@ -127,7 +128,7 @@ def replay_from(
         load=recorded_load(options, unit, recording),
         initial_bend_angle=initial_bend_angle_from(options, unit),
         tension_stddev=tension_stddev_from(options, unit),
-        progress=with_progress,
+        progress=progress,
     )
 
 

@@ -106,11 +106,24 @@ def test_a_unit_s_file_says_what_is_believed(tmp_path):
 
 def test_a_rate_that_cannot_be_checked_is_said(tmp_path):
     data, unit = tmp_path / 'spike.csv', tmp_path / 'unit.yaml'
-    data.write_text('tension_l,tension_s\n1.0,1.5\n1.0,4.194\n1.0,1.5\n')
+    data.write_text('tension_l,tension_s\n1.0,1.5\n1.0,4.194\n1.0,1.5\n1.0,1.5\n')
     lines = ''.join(f'      {name}: {v}\n' for name, v in dataclasses.asdict(PRELIMINARY).items())
     unit.write_text(f'/**:\n  ros__parameters:\n    max_tension_rate: 1.0\n    design:\n{lines}')
-    said = run('replay', data, '--design', unit, '--estimation', 'tracking').stdout
-    assert 'max_tension_rate of the design file is not checked: there are no times' in said
+    asked = ('replay', data, '--design', unit, '--estimation', 'tracking')
+    said = run(*asked).stdout
+    assert 'max_tension_rate of the design file is not checked: there are no times (--rate' in said
+    assert 'warning       tension_s goes from 1.5 N to 4.194 N and back within one sample' in said
+    timed = run(
+        'replay', data, '--design', unit, '--estimation', 'tracking', '--rate', '10'
+    ).stdout
+    assert 'invalid       too fast 1' in timed
+    assert 'time: 10 rows per second, as was said' in timed
+    assert 'warning' not in timed
+    followed = run('track', data, '--design', unit, '--rate', '10').stdout.splitlines()
+    assert followed[-1].split(',')[3] == '0.0'
+    assert run('track', data, '--rate', '0').returncode == 2
+    data.write_text('time,tension_l,tension_s\n0,1.0,1.5\n')
+    assert 'a rate (--rate) is for tables without' in run('track', data, '--rate', '1').stderr
 
 
 def test_the_load_of_the_unit_is_that_of_its_settings_unless_another_is_given():
