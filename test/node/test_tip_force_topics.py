@@ -6,13 +6,14 @@ import time
 import pytest
 from designs import PRELIMINARY
 from geometry_msgs.msg import WrenchStamped
-from list_entities import entities, estimator
+from list_entities import alone, entities
 from ros_programs import TIME_LIMIT, wait_for
 from std_msgs.msg import Float64
 from tendon_statics_interfaces.msg import TipForce
 from tendon_statics_interfaces.srv import SolveTipForce
 
 from tendon_statics import tip_force, tip_force_intervals
+from tendon_statics.node.estimator import Estimator
 
 OWN = {'~/tip_force', '~/tip_wrench', '~/solve_tip_force'}
 PAIR = (1.0, 1.9)
@@ -24,14 +25,15 @@ ARGUMENTS = (
 )
 
 
-def names(*parameters):
-    with estimator(*parameters) as node:
+def names(alias, *arguments):
+    # A name of its own, since one of the same name that has ended may still be in the graph.
+    with alone(Estimator, '-r', f'__node:={alias}', *arguments) as node:
         return {name for of_kind in entities(node).values() for name in of_kind}
 
 
 def test_none_of_it_is_there_unless_asked_for():
-    assert not OWN & names()
-    asked = names('tip_force:=true')
+    assert not OWN & names('without_tip_force')
+    asked = names('with_tip_force', '-p', 'tip_force:=true')
     assert asked >= OWN
     assert '/measured_bend_angle' in asked
 
