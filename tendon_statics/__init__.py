@@ -46,6 +46,7 @@ if TYPE_CHECKING:
         TensionError,
         TensionGradient,
         Tensions,
+        TipForce,
         TipPose,
         UnreachableError,
         admissible_angles,
@@ -62,6 +63,9 @@ if TYPE_CHECKING:
         solve,
         solve_batch,
         tensions_for,
+        tip_force,
+        tip_force_intervals,
+        tip_force_of_state,
     )
     from .recordings.errors import RecordingError
     from .recordings.motion import mark_motion
@@ -105,6 +109,7 @@ __all__ = [
     'TensionError',
     'TensionGradient',
     'Tensions',
+    'TipForce',
     'TipPose',
     'UnreachableError',
     'admissible_angles',
@@ -128,6 +133,9 @@ __all__ = [
     'solve',
     'solve_batch',
     'tensions_for',
+    'tip_force',
+    'tip_force_intervals',
+    'tip_force_of_state',
 ]
 
 _NOT_OF_PHYSICS = {

@@ -12,6 +12,7 @@ from ..estimation.settings import Settings
 from ..physics.admissible import check_bend_angle
 from ..physics.design import JointDesign
 from ..physics.errors import BendAngleError, DesignError, LoadError
+from ..physics.load import push_along
 from ..tensions.cable_scale import CableScale
 from ..tensions.watch import Plausibility
 from .design_file import uncertainty_in
@@ -106,6 +107,7 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
         )
         check_bend_angle(design, settings.initial_bend_angle)
         _ = settings.load
+        _check_tip_direction(settings)
     except BendAngleError as error:
         raise SettingError(f'initial_{error}') from None
     except LoadError as error:
@@ -114,6 +116,20 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
     if refusal:
         raise SettingError(refusal)
     return settings
+
+
+def _check_tip_direction(settings: Settings) -> None:
+    """Check that it is a unit vector in the plane of bending.
+
+    Raises
+    ------
+    SettingError
+        If it is not.
+    """
+    try:
+        push_along(settings.tip_direction, settings.tip_distance)
+    except LoadError as error:
+        raise SettingError(f'tip_{error}') from None
 
 
 def _cable_scale(cable: str, number: Mapping[str, float]) -> CableScale:

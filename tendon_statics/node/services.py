@@ -68,17 +68,7 @@ class Services:
         answer: Callable[[Any, Any], Any],
         refuse: Callable[[Any, str], Any],
     ) -> None:
-        node = self._node
-
-        def on_request(request: Any, response: Any) -> Any:
-            if node.is_active:
-                return answer(request, response)
-            full_name = node.get_fully_qualified_name()
-            return refuse(
-                response, f'{full_name} is {node.state_label}; it answers when it is active'
-            )
-
-        node.create_service(service_type, f'~/{name}', on_request)
+        offer(self._node, service_type, name, answer, refuse)
 
     def _solve(
         self, request: messages.Solve.Request, response: messages.Solve.Response
@@ -197,3 +187,21 @@ class Services:
             self._node.get_logger().error(f'No such transition now: {error}')
             response.success = False
             return response
+
+
+def offer(
+    node: Estimator,
+    service_type: type,
+    name: str,
+    answer: Callable[[Any, Any], Any],
+    refuse: Callable[[Any, str], Any],
+) -> None:
+    """Create a service that answers while the node is active, and else refuses."""
+
+    def on_request(request: Any, response: Any) -> Any:
+        if node.is_active:
+            return answer(request, response)
+        full_name = node.get_fully_qualified_name()
+        return refuse(response, f'{full_name} is {node.state_label}; it answers when it is active')
+
+    node.create_service(service_type, f'~/{name}', on_request)
