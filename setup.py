@@ -9,7 +9,7 @@ setup(
     name=package_name,
     version='0.2.0',
     packages=find_packages(include=[package_name, f'{package_name}.*']),
-    package_data={package_name: ['py.typed']},
+    package_data={package_name: ['py.typed', 'view/page.html']},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{package_name}']),
         (share, ['package.xml']),
@@ -32,7 +32,8 @@ setup(
         ],
         'matlab': ['pymatreader>=1.0'],
         'plot': ['matplotlib'],
-        'test': ['hypothesis', 'mpmath', 'pytest', 'scipy>=1.11.4', 'xacro'],
+        'view': ['bokeh>=3.4'],
+        'test': ['hypothesis', 'mpmath', 'playwright', 'pytest', 'scipy>=1.11.4', 'xacro'],
     },
     zip_safe=False,
     maintainer='tendon_statics maintainers',
@@ -44,6 +45,7 @@ setup(
         'console_scripts': [
             'estimator = tendon_statics.node.program:estimator',
             'pulley_driver = tendon_statics.driver.program:pulley_driver',
+            'view = tendon_statics.view.program:view',
             'tendon-statics = tendon_statics.command_line.main:main',
         ],
     },
