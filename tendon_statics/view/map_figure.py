@@ -21,6 +21,9 @@ NOT_SEATED = '#4d4d4d'
 ON_MAP = (Regime.HELD, Regime.EQUILIBRIUM, Regime.DRIVEN_TO_STOP)
 """What an area of the map may be; whether a unit slips is a matter of where it was"""
 
+EDGE = 0.03
+"""How far the map reaches below 0, as a share of the rest, for a mark on its edge"""
+
 SHORTEST_PERIOD = 2.0
 """Seconds between two maps, at the least; one takes up to 0.05 s"""
 
@@ -103,7 +106,8 @@ class MapFigure:
         self._made, self._made_at = (design, load, end), time.monotonic()
         codes = regimes_over_tensions(design, load, end).astype(np.float32)
         self._image.data = {'codes': [codes], 'end': [end]}
-        self.root.x_range.end = self.root.y_range.end = end
+        for axis in (self.root.x_range, self.root.y_range):
+            axis.update(start=-EDGE * end, end=end)
 
     def clear(self) -> None:
         """Draw nothing any more, as of an estimator that is left."""

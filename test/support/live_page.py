@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import socket
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from socketserver import BaseRequestHandler, ThreadingTCPServer
+from threading import Thread
 from typing import Any
 
 from browser import Drawings
@@ -16,6 +21,37 @@ def view_url(view: Program) -> str:
     wait_for('the page', lambda: 'Ready: ' in view.output() or view.process.poll() is not None)
     assert 'Ready: ' in view.output(), view.output()
     return view.output().split('Ready: ')[1].split()[0]
+
+
+@contextmanager
+def forwarded(url: str) -> Iterator[str]:
+    """Serve a page at another port of this machine too, as `ssh -L` does; give that address."""
+    host, port = url.removeprefix('http://').split(':')
+
+    class Forward(BaseRequestHandler):
+        def handle(self) -> None:
+            with socket.create_connection((host, int(port))) as server:
+                back = Thread(target=_pour, args=(server, self.request))
+                back.start()
+                _pour(self.request, server)
+                back.join()
+
+    with ThreadingTCPServer(('127.0.0.1', 0), Forward) as server:
+        thread = Thread(target=server.serve_forever)
+        thread.start()
+        try:
+            yield f'http://localhost:{server.server_address[1]}'
+        finally:
+            server.shutdown()
+            thread.join()
+
+
+def _pour(source: socket.socket, sink: socket.socket) -> None:
+    with suppress(OSError):  # of a side that has gone
+        while data := source.recv(65536):
+            sink.sendall(data)
+    with suppress(OSError):
+        sink.shutdown(socket.SHUT_RDWR)
 
 
 class LivePage:

@@ -8,7 +8,7 @@ from contextlib import ExitStack
 import numpy as np
 import pytest
 from browser import BrowserMissingError, chromium
-from live_page import LivePage, view_url
+from live_page import LivePage, forwarded, view_url
 from rclpy.node import Node
 from ros_domain import free_domain, in_domain
 from ros_programs import Program, spinning, wait_for
@@ -178,6 +178,14 @@ def test_nothing_comes_from_elsewhere(page):
     assert page.errors == []
 
 
+def test_the_page_works_at_a_forwarded_port_of_another_number(rig, browser):
+    with forwarded(rig.url) as url:
+        assert url.split(':')[-1] != rig.url.split(':')[-1]
+        page = LivePage(browser, url)
+        page.wait('model("history").data.time.length > 5')
+        page.close()
+
+
 def test_the_page_fits_a_phone(rig, browser):
     page = LivePage(browser, rig.url, viewport={'width': 390, 'height': 800})
     page.wait('model("history").data.time.length > 5')
@@ -210,8 +218,10 @@ def test_a_closed_tab_leaves_nobody_who_listens(rig, browser):
     wait_for('the page to listen', lambda: rig.listeners() == 1)
     page.close()
     wait_for('nobody to listen', lambda: rig.listeners() == 0)
-    topics = rig.node.get_subscriber_names_and_types_by_node('view', '/')
-    assert topics == []
+    wait_for(
+        'no subscription to be left',
+        lambda: rig.node.get_subscriber_names_and_types_by_node('view', '/') == [],
+    )
 
 
 def test_two_pages_at_one_estimator_listen_once(rig, browser):
