@@ -8,7 +8,7 @@ PYTHON ?=
 run := set -euo pipefail; . tools/env.bash;
 
 sources := package.xml setup.py setup.cfg colcon.pkg colcon_defaults.yaml \
-  $(shell find tendon_statics config launch security urdf resource interfaces -type f \
+  $(shell find tendon_statics config launch layouts rviz security urdf resource interfaces -type f \
     -not -path '*/__pycache__/*' -not -name '*.swp')
 
 .PHONY: help

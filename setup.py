@@ -15,6 +15,8 @@ setup(
         (share, ['package.xml']),
         (f'{share}/config', glob('config/*')),
         (f'{share}/launch', glob('launch/*.launch.py')),
+        (f'{share}/layouts', glob('layouts/*')),
+        (f'{share}/rviz', glob('rviz/*.rviz')),
         (f'{share}/security', glob('security/*')),
         (f'{share}/urdf', glob('urdf/*.xacro')),
         (f'{share}/hook', ['resource/path.dsv']),

@@ -28,9 +28,7 @@ class ProbabilityFigure:
             tools='',
             visible=False,
         )
-        self._bars = ColumnDataSource(
-            {'name': [], 'probability': [], 'colour': []}, name='bars'
-        )
+        self._bars = ColumnDataSource({'name': [], 'probability': [], 'colour': []}, name='bars')
         self.root.hbar(
             y='name', right='probability', height=0.7, color='colour', source=self._bars
         )
