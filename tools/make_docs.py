@@ -18,6 +18,7 @@ import list_driver_parameters
 import list_entities
 import list_parameters
 import list_permissions
+import list_view_parameters
 import measure_filter.figure
 import validate.figure
 import validate.tables
@@ -28,7 +29,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGES = (
     'README.md',
     *('docs/calibration.md', 'docs/recordings.md', 'docs/model.md', 'docs/node.md'),
-    *('docs/rig.md', 'docs/security.md', 'docs/validation.md'),
+    *('docs/rig.md', 'docs/security.md', 'docs/validation.md', 'docs/view.md'),
 )
 SESSION = 'config/recorded_session.mcap'
 FIGURES = {
@@ -47,6 +48,7 @@ TOOLS = {
     'tools/list_entities.py': list_entities.main,
     'tools/list_parameters.py': list_parameters.main,
     'tools/list_permissions.py': list_permissions.main,
+    'tools/list_view_parameters.py': list_view_parameters.main,
     'tools/validate/tables.py': validate.tables.main,
 }
 

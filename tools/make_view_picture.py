@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import sys
+from io import BytesIO
 from pathlib import Path
 
 from browser import BrowserMissingError, chromium
 from live_rig import live_rig
+from PIL import Image
 
 PICTURE = Path(__file__).resolve().parents[1] / 'docs' / 'view.png'
 
@@ -30,7 +32,10 @@ def main() -> None:
             f'window.Bokeh && Bokeh.documents.length > 0 && ({FULL})(Bokeh.documents[0])',
             timeout=120e3,
         )
-        page.screenshot(path=PICTURE, full_page=True)
+        shot = BytesIO(page.screenshot(full_page=True))
+    # Few colours, of which the rare ones count too: those of the regimes.
+    method = Image.Quantize.MAXCOVERAGE
+    Image.open(shot).convert('RGB').quantize(256, method).save(PICTURE, optimize=True)
     print(f'{PICTURE.name}: {PICTURE.stat().st_size / 1024:.0f} kB')
 
 
