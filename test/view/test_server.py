@@ -3,13 +3,17 @@
 import base64
 import os
 import socket
+import sys
 from contextlib import closing
 from http.client import HTTPConnection
+from urllib.error import URLError
+from urllib.request import urlopen
 
 import pytest
 from live_page import view_url
+from make_docs import ROOT
 from ros_domain import free_domain, in_domain
-from ros_programs import Program
+from ros_programs import Program, wait_for
 
 
 @pytest.fixture(scope='module', autouse=True)
@@ -124,3 +128,18 @@ def test_missing_interfaces_are_said_in_a_line(tmp_path, monkeypatch):
     monkeypatch.setenv('PYTHONPATH', f'{tmp_path}:{os.environ["PYTHONPATH"]}')
     with view('port:=0') as program:
         assert_refused(program, 'no interfaces here', 'interfaces/')
+
+
+def test_the_demo_shows_a_page_until_it_is_ended_and_leaves_nothing():
+    with Program.running_command(
+        [sys.executable, ROOT / 'tools/demo_view.py', '--port', '0']
+    ) as demo:
+        wait_for(
+            'the page', lambda: 'Live page: ' in demo.output() or demo.process.poll() is not None
+        )
+        url = demo.output().split('Live page: ')[1].split()[0]
+        with urlopen(url) as page:
+            assert '<title>tendon_statics</title>' in page.read().decode()
+        assert demo.end() == 0, demo.output()
+        with pytest.raises(URLError):
+            urlopen(url)
