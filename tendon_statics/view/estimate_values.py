@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..physics import Load, LoadError, Regime
@@ -21,7 +22,7 @@ def sample_of(estimate: Any) -> Sample:
         angle=math.degrees(estimate.bend_angle),
         angle_low=low,
         angle_high=high,
-        admissible=list(zip(ends[::2], ends[1::2], strict=True)),
+        admissible=list(pairs_of(ends)),
         pressure=estimate.pressure,
         pressure_low=estimate.pressure - spread,
         pressure_high=estimate.pressure + spread,
@@ -29,6 +30,11 @@ def sample_of(estimate: Any) -> Sample:
         tension_l=estimate.tension_l,
         tension_s=estimate.tension_s,
     )
+
+
+def pairs_of(ends: Sequence[float]) -> Iterator[tuple[float, float]]:
+    """Return the intervals of a list of ends; one that is left over is none."""
+    return zip(ends[::2], ends[1::2], strict=False)
 
 
 def angle_interval(estimate: Any) -> tuple[float, float]:

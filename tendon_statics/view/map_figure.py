@@ -12,6 +12,7 @@ from bokeh.plotting import figure
 
 from ..estimation.regimes import REGIME_COLOURS
 from ..physics import JointDesign, Load, Regime
+from ..physics.tensions import MAX_TENSION
 from .estimate_values import load_of
 from .regime_map import CODES, gives_same_map, map_end, regimes_over_tensions
 
@@ -91,7 +92,8 @@ class MapFigure:
         pair = {'tension_l': [estimate.tension_l], 'tension_s': [estimate.tension_s]}
         if pair != self._present.data:
             self._present.data = pair
-        self._largest = max(self._largest, estimate.tension_l, estimate.tension_s)
+        shown = (t for t in (estimate.tension_l, estimate.tension_s) if 0.0 <= t <= MAX_TENSION)
+        self._largest = max(self._largest, *shown, 0.0)
         load = load_of(estimate)
         if design is None or load is None:
             return

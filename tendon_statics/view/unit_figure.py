@@ -10,7 +10,7 @@ from bokeh.plotting import figure
 
 from ..estimation.regimes import REGIME_COLOURS
 from ..physics import JointDesign, Load
-from .estimate_values import angle_interval, load_of, regime_of
+from .estimate_values import angle_interval, load_of, pairs_of, regime_of
 
 INK, PALE, GRAVITY = '#222222', '#e4e4e4', '#555555'
 
@@ -125,10 +125,9 @@ class UnitFigure:
         band_inner, band_outer, inner, outer = (reach + beyond for beyond in ARCS)
         regime = regime_of(estimate)
         colour = REGIME_COLOURS[regime] if regime else GRAVITY
-        ends = list(estimate.admissible_angles)
         arcs = [
             (low, high, band_inner, band_outer, colour, 0.35)
-            for low, high in zip(ends[::2], ends[1::2], strict=True)
+            for low, high in pairs_of(list(estimate.admissible_angles))
         ]
         low, high = angle_interval(estimate)
         if math.isfinite(low) and math.isfinite(high):
