@@ -44,7 +44,7 @@ def live_rig(*, port: int = 0, rate: float = SESSION_RATE) -> Iterator[LiveRig]:
         str(installed_config(name))
         for name in ('recorded_session.mcap', 'preliminary_design.yaml')
     )
-    follow = ('--params-file', design, '-p', 'estimation:=tracking')
+    follow = ('--params-file', design, '-p', 'estimation:=filtering')
     play = ('-p', f'file:={session}', '-p', f'rate:={rate}')
     with (
         own_domain(),

@@ -42,11 +42,8 @@ def angle_interval(estimate: Any) -> tuple[float, float]:
 
     That is the interval that the estimator gives, else `COVERAGE` standard deviations.
     """
-    # An estimator of an earlier version has no such fields.
-    low = getattr(estimate, 'bend_angle_low', math.nan)
-    high = getattr(estimate, 'bend_angle_high', math.nan)
-    if not math.isnan(low):
-        return low, high
+    if not math.isnan(estimate.bend_angle_low):
+        return estimate.bend_angle_low, estimate.bend_angle_high
     angle, spread = estimate.bend_angle, COVERAGE * estimate.bend_angle_stddev
     return angle - spread, angle + spread
 
@@ -75,7 +72,5 @@ def regime_of(estimate: Any) -> Regime | None:
 
 def regime_probabilities(estimate: Any) -> dict[Regime, float] | None:
     """Return the probability of each regime, None where the estimator says none."""
-    found = {
-        regime: getattr(estimate, f'probability_{regime.value}', math.nan) for regime in Regime
-    }
+    found = {regime: getattr(estimate, f'probability_{regime.value}') for regime in Regime}
     return None if any(map(math.isnan, found.values())) else found

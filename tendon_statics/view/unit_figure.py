@@ -180,7 +180,7 @@ def _arcs(rows: list[Any]) -> dict[str, list[Any]]:
 
 def _body(design: JointDesign | None, angle: float, colour: str) -> dict[str, list[Any]]:
     names = ('x', 'y', 'width', 'height', 'angle', 'tip_x', 'tip_y', 'colour')
-    if design is None or math.isnan(angle):
+    if design is None or not math.isfinite(angle):
         return {name: [] for name in names}
     top, bottom = _top(design), 0.1
     height, middle = top - bottom, 0.5 * (top + bottom)
@@ -207,7 +207,7 @@ def _load_arrows(design: JointDesign, angle: float, load: Load) -> list[Any]:
         (place_x - 0.4 * x, place_y - 0.4 * z, place_x + 0.4 * x, place_y + 0.4 * z, GRAVITY)
     ]
     force = math.hypot(*load.tip_force)
-    if force > 0.0 and not math.isnan(angle):
+    if force > 0.0 and math.isfinite(angle):
         away = min(load.tip_distance / design.ball_radius, 1.3 * _top(design))
         x, y = away * math.sin(angle), away * math.cos(angle)
         along_x, along_y = (0.8 * part / force for part in load.tip_force)

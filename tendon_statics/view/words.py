@@ -112,9 +112,8 @@ def _numbers(estimate: Any) -> Iterator[tuple[str, str]]:
     yield 'bend angle', angle
     yield 'pressure', pressure
     yield 'slip margin', _number(estimate.slip_margin, '+.3f', '')
-    consistency = getattr(estimate, 'consistency', math.nan)
-    if math.isfinite(consistency):
-        yield 'consistency', f'{consistency:.3f}'
+    if math.isfinite(estimate.consistency):
+        yield 'consistency', f'{estimate.consistency:.3f}'
     yield 'tensions l, s', f'{estimate.tension_l:.3f} N, {estimate.tension_s:.3f} N'
 
 
@@ -127,7 +126,7 @@ def _doubts(estimate: Any) -> Iterator[str]:
         yield 'What tells the load does not come; the last that was known is taken.'
     if math.isnan(estimate.bend_angle):
         return
-    if getattr(estimate, 'provisional', False):
+    if estimate.provisional:
         yield 'Provisional: readings to come may take it back.'
     if not estimate.angle_assured:
         yield 'The unit may have moved unseen: its angle is not assured.'

@@ -2,6 +2,7 @@
 
 import math
 
+import estimates
 import pytest
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from std_msgs.msg import Header
@@ -23,11 +24,9 @@ PUBLISHED, HELD, SLACK = (1.0, 2.0), (1.0, 1.5), (0.0, 2.0)
 
 def estimate_of(*tensions, load_assured=True):
     result = solve(DESIGN, *tensions)
-    intervals = [] if result.regime is Regime.SLACK else result.admissible_angles
-    return fill_estimate(
-        *(Estimate(), result, result.slip_margin, intervals, 0.01, Header()),
-        load_assured=load_assured,
-    )
+    message = fill_estimate(Estimate(), estimates.estimate_of(result), Header())
+    message.load_assured = load_assured
+    return message
 
 
 @pytest.mark.parametrize('tensions', [PUBLISHED, HELD, SLACK, (1.0, 3.0)])
@@ -103,26 +102,28 @@ def test_counts_of_diagnostics_are_shown_where_they_are_not_0():
 
 
 def test_the_interval_is_that_of_the_estimator_if_it_gives_one():
-    class Extended:
-        bend_angle, bend_angle_stddev = 0.2, 0.05
-        bend_angle_low, bend_angle_high = 0.05, 0.4
-
-    assert angle_interval(Extended) == (0.05, 0.4)
-    Extended.bend_angle_low = math.nan
-    assert angle_interval(Extended) == pytest.approx((0.1, 0.3))
-    del Extended.bend_angle_low
-    assert angle_interval(Extended) == pytest.approx((0.1, 0.3))
+    estimate = Estimate(bend_angle=0.2, bend_angle_stddev=0.05)
+    estimate.bend_angle_low, estimate.bend_angle_high = 0.05, 0.4
+    assert angle_interval(estimate) == (0.05, 0.4)
+    estimate.bend_angle_low = math.nan
+    assert angle_interval(estimate) == pytest.approx((0.1, 0.3))
 
 
 def test_probabilities_are_those_of_the_estimator_or_none():
-    class Extended:
-        probability_equilibrium, probability_slipping, probability_slack = 0.25, 0.0, 0.0
-        probability_held, probability_driven_to_stop = 0.5, 0.25
+    estimate = Estimate(probability_held=0.5, probability_driven_to_stop=0.5)
+    assert regime_probabilities(estimate)[Regime.HELD] == 0.5
+    estimate.probability_held = math.nan
+    assert regime_probabilities(estimate) is None
 
-    assert regime_probabilities(Extended)[Regime.HELD] == 0.5
-    Extended.probability_held = math.nan
-    assert regime_probabilities(Extended) is None
-    assert regime_probabilities(object()) is None
+
+def test_what_is_provisional_or_held_against_measurements_is_said():
+    estimate = estimate_of(*PUBLISHED)
+    assert 'take it back' not in state_words(estimate, '', 0.0)
+    assert 'consistency' not in state_words(estimate, '', 0.0)
+    estimate.provisional, estimate.consistency = True, 0.25
+    words = state_words(estimate, '', 0.0)
+    assert 'take it back' in words
+    assert '0.250' in words
 
 
 def test_the_load_is_read_as_it_was_taken():
