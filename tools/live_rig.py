@@ -25,7 +25,9 @@ class LiveRig(NamedTuple):
 
 
 @contextmanager
-def live_rig(*, port: int = 0, rate: float = SESSION_RATE) -> Iterator[LiveRig]:
+def live_rig(
+    *, port: int = 0, rate: float = SESSION_RATE, estimation: str = 'filtering'
+) -> Iterator[LiveRig]:
     """Play the recorded session over and over, on this machine only; it ends with the block.
 
     Parameters
@@ -34,6 +36,8 @@ def live_rig(*, port: int = 0, rate: float = SESSION_RATE) -> Iterator[LiveRig]:
         Of the page; 0 for any that is free.
     rate : float
         Rows per second.
+    estimation : str
+        The estimator's parameter.
 
     Raises
     ------
@@ -44,7 +48,7 @@ def live_rig(*, port: int = 0, rate: float = SESSION_RATE) -> Iterator[LiveRig]:
         str(installed_config(name))
         for name in ('recorded_session.mcap', 'preliminary_design.yaml')
     )
-    follow = ('--params-file', design, '-p', 'estimation:=filtering')
+    follow = ('--params-file', design, '-p', f'estimation:={estimation}')
     play = ('-p', f'file:={session}', '-p', f'rate:={rate}')
     with (
         own_domain(),

@@ -32,7 +32,7 @@ def main() -> int:
         '--seconds', type=float, default=20.0, help='of each measurement; default: %(default)s'
     )
     seconds = parser.parse_args().seconds
-    with live_rig(rate=RATE) as rig, chromium() as browser:
+    with live_rig(rate=RATE, estimation='tracking') as rig, chromium() as browser:
         closed, _ = measured(rig, lambda: time.sleep(seconds))
         page = browser.new_page(viewport={'width': 1280, 'height': 900})
         drawings = Drawings(page)

@@ -186,6 +186,20 @@ def test_the_page_works_at_a_forwarded_port_of_another_number(rig, browser):
         page.close()
 
 
+def test_a_filtering_estimator_is_shown_with_the_probability_of_each_regime(rig, browser):
+    rig.start('fourth', 'estimator', '-p', 'estimation:=filtering')
+    rig.drive('fourth', tensions=HELD)
+    page = LivePage(browser, rig.url)
+    page.wait('model("estimator").options.includes("/fourth/estimator")')
+    page.choose('/fourth/estimator')
+    page.wait('model("bars").data.probability.length == 5')
+    assert page.get('probabilities', 'visible')
+    assert sum(page.data('bars')['probability']) == pytest.approx(1.0, abs=0.01)
+    page.wait_for_words('held', 'take it back')
+    page.wait('model("body").data.angle.length == 1')
+    page.close()
+
+
 def test_the_page_fits_a_phone(rig, browser):
     page = LivePage(browser, rig.url, viewport={'width': 390, 'height': 800})
     page.wait('model("history").data.time.length > 5')
