@@ -1,4 +1,4 @@
-"""Start one estimator; arguments: namespace, params_file, tensions, robot_state_publisher."""
+"""Start one estimator, on request with robot_state_publisher and RViz."""
 
 from pathlib import Path
 
@@ -8,9 +8,15 @@ from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch_ros.actions import Node
 from launch_ros.utilities import make_namespace_absolute, prefix_namespace
 
-from tendon_statics.launching.actions import as_they_are, robot_state_publisher
+from tendon_statics.launching.actions import (
+    as_they_are,
+    declared_rviz,
+    robot_state_publisher,
+    rviz,
+)
 from tendon_statics.launching.base_turn import load_base_turn
 from tendon_statics.launching.joint_names import JointNames, load_joint_names
+from tendon_statics.launching.rviz import Shown
 from tendon_statics.launching.unit_description import unit_description
 
 
@@ -37,6 +43,7 @@ def generate_launch_description():
                 choices=['true', 'false'],
                 description='whether a robot_state_publisher shows the unit in RViz',
             ),
+            declared_rviz(),
             OpaqueFunction(function=start_estimator),
         ]
     )
@@ -51,10 +58,14 @@ def start_estimator(context):
     node = f'{full_namespace.rstrip("/")}/estimator'
     names = load_joint_names(params_file, node, default=JointNames())
     actions = []
+    shows_rviz = arguments['rviz'] == 'true'
     # First, since it may be missing, and launch leaves running what it has started by then.
-    if arguments['robot_state_publisher'] == 'true':
+    if shows_rviz or arguments['robot_state_publisher'] == 'true':
         turn = load_base_turn(params_file, node)
         description = unit_description(params_file, names, base_turn=turn)
+        if shows_rviz:
+            shown = Shown(full_namespace.strip('/'), names.frame_id, turn is not None)
+            actions.append(rviz([shown]))
         actions.append(robot_state_publisher(description, namespace))
     actions.append(
         Node(
@@ -62,7 +73,11 @@ def start_estimator(context):
             executable='estimator',
             name='estimator',
             namespace=namespace,
-            parameters=[params_file, as_they_are(names._asdict())],
+            parameters=[
+                params_file,
+                as_they_are(names._asdict()),
+                *([{'markers': True}] if shows_rviz else []),
+            ],
             remappings=[('tensions', arguments['tensions'])],
             output='screen',
         )

@@ -1,4 +1,4 @@
-"""Start one estimator per joint; arguments: rig_file, simulate, robot_state_publisher."""
+"""Start one estimator per joint; arguments: rig_file, simulate, robot_state_publisher, rviz."""
 
 from pathlib import Path
 
@@ -7,8 +7,14 @@ from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch_ros.actions import Node
 
-from tendon_statics.launching.actions import as_they_are, robot_state_publisher
+from tendon_statics.launching.actions import (
+    as_they_are,
+    declared_rviz,
+    robot_state_publisher,
+    rviz,
+)
 from tendon_statics.launching.rig_file import load_rig
+from tendon_statics.launching.rviz import Shown
 from tendon_statics.launching.unit_description import unit_description
 
 
@@ -33,6 +39,7 @@ def generate_launch_description():
                 choices=['true', 'false'],
                 description='whether a robot_state_publisher per joint shows the unit in RViz',
             ),
+            declared_rviz(),
             OpaqueFunction(function=start_rig),
         ]
     )
@@ -42,8 +49,15 @@ def start_rig(context):
     arguments = context.launch_configurations
     joints = load_rig(arguments['rig_file'])
     actions = []
+    shows_rviz = arguments['rviz'] == 'true'
     # First, since it may be missing, and launch leaves running what it has started by then.
-    if arguments['robot_state_publisher'] == 'true':
+    if shows_rviz:
+        shown = [
+            Shown(joint.namespace, joint.names.frame_id, joint.base_turn is not None)
+            for joint in joints
+        ]
+        actions.append(rviz(shown))
+    if shows_rviz or arguments['robot_state_publisher'] == 'true':
         actions += [
             robot_state_publisher(
                 unit_description(
@@ -54,7 +68,10 @@ def start_rig(context):
             )
             for joint in joints
         ]
-    actions += [node(joint, 'estimator', joint.estimator_parameters()) for joint in joints]
+    markers = {'markers': True} if shows_rviz else {}
+    actions += [
+        node(joint, 'estimator', joint.estimator_parameters() | markers) for joint in joints
+    ]
     if arguments['simulate'] == 'true':
         actions += [node(joint, 'pulley_driver', joint.driver_parameters()) for joint in joints]
     return actions

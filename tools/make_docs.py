@@ -18,6 +18,7 @@ import list_driver_parameters
 import list_entities
 import list_parameters
 import list_permissions
+import list_view_parameters
 import measure_filter.figure
 import tip_force_tables
 import validate.figure
@@ -30,6 +31,7 @@ PAGES = (
     'README.md',
     *('docs/arm.md', 'docs/calibration.md', 'docs/recordings.md', 'docs/model.md', 'docs/node.md'),
     *('docs/rig.md', 'docs/security.md', 'docs/tip_force.md', 'docs/validation.md'),
+    'docs/view.md',
 )
 SESSION = 'config/recorded_session.mcap'
 FIGURES = {
@@ -51,6 +53,7 @@ TOOLS = {
     'tools/list_parameters.py': list_parameters.main,
     'tools/list_permissions.py': list_permissions.main,
     'tools/tip_force_tables.py': tip_force_tables.main,
+    'tools/list_view_parameters.py': list_view_parameters.main,
     'tools/validate/tables.py': validate.tables.main,
 }
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+from launch.actions import DeclareLaunchArgument
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
+
+from .rviz import Shown, rviz_arguments
 
 
 def robot_state_publisher(
@@ -29,6 +32,27 @@ def robot_state_publisher(
         namespace=namespace,
         parameters=[as_they_are({'robot_description': description})],
         remappings=[('joint_states', joint_states)],
+        output='screen',
+    )
+
+
+def declared_rviz() -> DeclareLaunchArgument:
+    """The argument with which a launch file shows its joints in RViz."""
+    return DeclareLaunchArgument(
+        'rviz',
+        default_value='false',
+        choices=['true', 'false'],
+        description='whether RViz shows the units; includes robot_state_publisher and markers',
+    )
+
+
+def rviz(joints: Sequence[Shown]) -> Node:
+    """The action that starts RViz for these joints."""
+    return Node(
+        package='rviz2',
+        executable='rviz2',
+        name='rviz',
+        arguments=rviz_arguments(joints),
         output='screen',
     )
 
