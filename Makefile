@@ -61,6 +61,11 @@ lint: .venv/.complete ## Check style and types
 docs: setup ## Make again the tables and figures of docs/
 	@$(run) python tools/make_docs.py
 
+.PHONY: site
+site: setup .venv/.site ## Build the documentation as a site, build/site/index.html
+	@$(run) python -m sphinx --fail-on-warning --keep-going --quiet -d build/site.doctrees docs build/site
+	@echo "== build/site/index.html"
+
 .PHONY: clean
 clean: ## Remove all that the targets made
 	rm -rf .venv build install log .hypothesis .mypy_cache .pytest_cache .ruff_cache
@@ -71,6 +76,11 @@ clean: ## Remove all that the targets made
 	@touch $@
 
 .venv/.validate: tools/requirements-validate.txt .venv/.complete
+	@$(run) pip install --quiet -r $<
+	@touch $@
+
+.venv/.site: tools/requirements-site.txt .venv/.complete
+	@echo "== what the site needs: Sphinx, from $<"
 	@$(run) pip install --quiet -r $<
 	@touch $@
 

@@ -19,6 +19,7 @@ import list_entities
 import list_parameters
 import list_permissions
 import measure_filter.figure
+import node_reference
 import validate.figure
 import validate.tables
 
@@ -28,6 +29,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGES = (
     'README.md',
     *('docs/calibration.md', 'docs/recordings.md', 'docs/model.md', 'docs/node.md'),
+    'docs/node_reference.md',
     *('docs/rig.md', 'docs/security.md', 'docs/validation.md'),
 )
 SESSION = 'config/recorded_session.mcap'
@@ -47,6 +49,7 @@ TOOLS = {
     'tools/list_entities.py': list_entities.main,
     'tools/list_parameters.py': list_parameters.main,
     'tools/list_permissions.py': list_permissions.main,
+    'tools/node_reference.py': node_reference.main,
     'tools/validate/tables.py': validate.tables.main,
 }
 
