@@ -14,6 +14,7 @@ import sys
 from contextlib import redirect_stdout
 from pathlib import Path
 
+import friction_figures
 import list_driver_parameters
 import list_entities
 import list_parameters
@@ -22,6 +23,7 @@ import measure_filter.figure
 import node_reference
 import validate.figure
 import validate.tables
+from run_page import run_page
 
 from tendon_statics.command_line.main import main as run
 
@@ -30,8 +32,14 @@ PAGES = (
     'README.md',
     *('docs/calibration.md', 'docs/recordings.md', 'docs/model.md', 'docs/node.md'),
     'docs/node_reference.md',
-    *('docs/rig.md', 'docs/security.md', 'docs/validation.md'),
+    *('docs/rig.md', 'docs/security.md', 'docs/contact_laws.md', 'docs/validation.md'),
 )
+TUTORIALS = tuple(
+    f'docs/tutorials/{name}.md'
+    for name in ('first_estimate', 'own_unit', 'three_joints', 'bag_to_report')
+)
+"""Pages whose blocks are run in order, as a reader would"""
+
 SESSION = 'config/recorded_session.mcap'
 FIGURES = {
     'docs/calibration.svg': f'plot calibration {SESSION} --motion-step-deg 3 '
@@ -86,6 +94,10 @@ def main() -> int:
     """Rewrite the pages and figures."""
     for name in PAGES:
         make_page(name)
+    for name in TUTORIALS:
+        path = ROOT / name
+        path.write_text(run_page(path.read_text(encoding='utf-8')), encoding='utf-8')
+    friction_figures.write(ROOT / 'docs')
     measure_filter.figure.write(ROOT / 'docs/filter.svg')
     for name, arguments in FIGURES.items():
         if run([*shlex.split(arguments), '--output', str(ROOT / name)]) != 0:
