@@ -63,7 +63,8 @@ docs: setup ## Make again the tables and figures of docs/
 
 .PHONY: site
 site: setup .venv/.site ## Build the documentation as a site, build/site/index.html
-	@$(run) python -m sphinx --fail-on-warning --keep-going --quiet -d build/site.doctrees docs build/site
+	@$(run) python -m sphinx --fail-on-warning --keep-going --quiet \
+	  --fresh-env --write-all -d build/site.doctrees docs build/site
 	@echo "== build/site/index.html"
 
 .PHONY: clean

@@ -35,6 +35,8 @@ autodoc_typehints = 'description'
 autodoc_typehints_description_target = 'documented'
 
 html_theme = 'furo'
+html_static_path = ['_static']
+html_css_files = ['site.css']
 html_title = f'{project} {globals().get("release", "")}'.strip()
 html_copy_source = False
 html_show_sphinx = False

@@ -33,7 +33,7 @@ def table(parameters: tuple[Parameter, ...], *, says_fixed: bool = True) -> str:
         )
         for parameter in parameters
     ]
-    return markdown_table(('parameter', 'type', 'default', 'allowed', ''), rows)
+    return markdown_table(('parameter', 'type', 'default', 'allowed', 'meaning'), rows)
 
 
 def allowed(parameter: Parameter) -> str:

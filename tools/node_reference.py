@@ -139,8 +139,8 @@ def table(kind: str) -> str:
         cells = (f'`{name}`', ', or '.join(types), quality, needed, MEANINGS[name])
         lines.append(cells[:2] + cells[4:] if kind == 'service' else cells)
     if kind == 'service':
-        return markdown_table(('service', 'type', ''), lines)
-    return markdown_table(('topic', 'type', 'quality, depth', 'only with', ''), lines)
+        return markdown_table(('service', 'type', 'meaning'), lines)
+    return markdown_table(('topic', 'type', 'quality, depth', 'only with', 'meaning'), lines)
 
 
 def definition(name: str) -> str:
