@@ -86,7 +86,8 @@ clean: ## Remove all that the targets made
 	@touch $@
 
 install/.complete: .venv/.complete $(sources)
-	@echo "== building tendon_statics_interfaces and tendon_statics into install/"
-	@$(run) python -m colcon build --event-handlers console_cohesion- console_stderr-  desktop_notification- \
+	@echo "== building tendon_statics_interfaces and tendon_statics into install/ (half a minute)"
+	@$(run) python -m colcon build --event-handlers console_cohesion- console_stderr- \
+	    desktop_notification- summary- \
 	  || { echo 'tendon_statics: the build failed; log/latest_build has why' >&2; exit 1; }
 	@touch $@
