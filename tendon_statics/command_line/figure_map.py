@@ -119,10 +119,7 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
 
 def _mark_published(axes: Axes, across: Floats, up: Floats) -> None:
     """Mark the tensions of the paper's published case, where they are on the map."""
-    if (
-        across[0] <= paper.TENSION_L <= across[-1]
-        and up[0] <= paper.TENSION_S <= up[-1]
-    ):
+    if across[0] <= paper.TENSION_L <= across[-1] and up[0] <= paper.TENSION_S <= up[-1]:
         axes.plot(
             *(paper.TENSION_L, paper.TENSION_S, 'o'),
             markersize=7.0,

@@ -85,8 +85,8 @@ def _there(titles: Sequence[str]) -> str:
     there = [title for title in titles if title]
     if there and all(_ONLY_NUMBERS.fullmatch(title) for title in there):
         return (
-            f'but the first line has numbers in place of titles, {", ".join(there)}; put titles '
-            'above it, such as tension_l,tension_s'
+            'but the first line has numbers in place of titles; put titles above it, such as '
+            'tension_l,tension_s'
         )
     missing = ','.join(f'{name}=TITLE' for name in REQUIRED if name not in there)
     return f'there are: {", ".join(there) or "none"} (--columns {missing} names them)'
