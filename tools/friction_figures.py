@@ -44,13 +44,14 @@ def draw_margins(drawing: Figure) -> None:
     axes.axhspan(-1.0, 1.0, color=HELD_AT)
     axes.text(-28.5, 0.03, 'friction can hold', color=BLUE, va='bottom')
     axes.text(-28.5, 1.19, 'it cannot: the unit slides towards s', color=VERMILION, va='bottom')
-    for tension, colour, word in (
-        (1.5, GREEN, 'held, at any angle'),
-        (2.0, BLUE, 'held up to 17°'),
-        (2.2, VERMILION, 'slides to the stop'),
+    for tension, colour, line, word in (
+        (1.5, GREEN, '-.', 'held, at any angle'),
+        (2.0, BLUE, '-', 'held up to 17°'),
+        (2.2, VERMILION, '--', 'slides to the stop'),
     ):
         margins = [slip_margin(UNIT, 1.0, tension, angle) for angle in angles]
-        axes.plot(np.degrees(angles), margins, color=colour, label=f'T_s = {tension:g} N: {word}')
+        label = f'T_s = {tension:g} N: {word}'
+        axes.plot(np.degrees(angles), margins, line, color=colour, label=label)
     _, end = admissible_angles(UNIT, 1.0, 2.0)[-1]
     axes.plot(degrees(end), 1.0, 'o', color=BLUE, markersize=7)
     axes.annotate(

@@ -82,7 +82,7 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
     if options.quantity != 'pressure':
         # So that they are not taken for the largest angles of an equilibrium.
         at_stop = answers.regime == REGIME_CODES[Regime.DRIVEN_TO_STOP]
-        has_no_number[AT_STOP[options.quantity]] = (at_stop, '#cfe3f1')
+        has_no_number[AT_STOP[options.quantity]] = (at_stop, '#8cc6e8')
     patches = []
     for label, (where, colour) in has_no_number.items():
         if where.any():
