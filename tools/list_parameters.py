@@ -6,7 +6,7 @@ import json
 
 from tendon_statics.command_line.tables import markdown_table
 from tendon_statics.files.estimator_parameters import ESTIMATOR_PARAMETERS
-from tendon_statics.files.parameter_kinds import Parameter, VectorParameter
+from tendon_statics.files.parameter_kinds import ListParameter, Parameter, VectorParameter
 
 
 def main() -> None:
@@ -19,15 +19,9 @@ def table(parameters: tuple[Parameter, ...], *, says_fixed: bool = True) -> str:
     rows = [
         (
             f'`{parameter.name}`',
-            kind_of(parameter.default),
+            kind_of(parameter),
             f'`{json.dumps(parameter.default)}`',
-            # Of a number it ends with the unit.
-            parameter.allowed
-            + (
-                f', {parameter.unit}'
-                if isinstance(parameter, VectorParameter) and parameter.unit
-                else ''
-            ),
+            allowed(parameter),
             parameter.description
             + ('; fixed at the start' if parameter.is_fixed and says_fixed else ''),
         )
@@ -42,11 +36,14 @@ def allowed(parameter: Parameter) -> str:
     return f'{parameter.allowed}, {unit}' if unit else parameter.allowed
 
 
-def kind_of(default: object) -> str:
+def kind_of(parameter: Parameter) -> str:
     """Return the type as ROS calls it, say ``double`` or ``string[]``."""
-    if isinstance(default, tuple):
-        return kind_of(default[0]) + '[]'
-    return {bool: 'bool', int: 'integer', float: 'double', str: 'string'}[type(default)]
+    names = {bool: 'bool', int: 'integer', float: 'double', str: 'string'}
+    if isinstance(parameter, ListParameter):
+        return 'double[]' if parameter.of_numbers else 'string[]'
+    if isinstance(parameter.default, tuple):
+        return f'{names[type(parameter.default[0])]}[]'
+    return names[type(parameter.default)]
 
 
 if __name__ == '__main__':

@@ -30,7 +30,8 @@ MEANINGS = {
     'imu': 'an IMU that sits on the base',
     'base_pose': 'the joint frame in a frame whose Z is up',
     'tip_wrench': 'the force on the tip in the joint frame, at `tip_distance`',
-    'measured_bend_angle': 'rad, from an encoder: puts a tracked unit there',
+    'measured_bend_angle': 'rad, from an encoder or a camera: `tracking` puts the unit '
+    'there, `filtering` takes it with its noise and holds it against the model',
     '~/regime': 'for every message, but for one that comes late or twice by its stamp',
     '~/bend_angle': 'rad; only where determined',
     '~/joint_pressure': 'Pa (N/m while `contact_width` is left at 1 m); only where determined',
@@ -42,6 +43,8 @@ MEANINGS = {
     'determined',
     '~/joint_state': 'the bend angle for robot_state_publisher and RViz; only where determined',
     '~/estimate': 'all of one result, stamped; for every valid message, NaN where not determined',
+    '~/committed_estimate': 'the same, `filter_lag` later, when it is not taken back any more, '
+    'with the stamp of its own tensions, which are smoothed',
     '~/markers': 'for RViz: the unit, the admissible angles, the regime as colour, gravity and '
     'tip force as arrows',
     '/diagnostics': 'how the node is, each second and when it gets worse',

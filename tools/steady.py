@@ -49,7 +49,7 @@ def main() -> int:
         begin = time.monotonic()
         with busy_loops(arguments.loops, arguments.limit):
             pytest = subprocess.run(
-                [sys.executable, '-m', 'pytest', '-q', '-m', arguments.marked],
+                [*END_WITH_PARENT, sys.executable, '-m', 'pytest', '-q', '-m', arguments.marked],
                 stdout=subprocess.PIPE,
                 text=True,
                 timeout=arguments.limit,

@@ -20,6 +20,7 @@ VERBS = {
     'admissible': 'the bend angles at which friction can hold the unit',
     'calibrate': 'fit a design to a recorded session, with the uncertainty of every value',
     'replay': 'every sample of a recorded session through the model',
+    'archive': 'every recording below some folders through the model, into one data set',
     'report': 'a recorded session and its calibration as one HTML file',
     'tare': 'the biases of load cells from a recording of slack cables',
     'sweep': 'a map of the answers over both cable tensions, as a file',

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import math
+from pathlib import Path
 
 from ..files.design_file import default_design_path
 from ..files.unit_file import Unit, load_unit
@@ -36,7 +37,17 @@ def add_design_option(parser: argparse.ArgumentParser) -> None:
 
 def unit_from(options: argparse.Namespace) -> Unit:
     """Return the unit that ``--design`` names, or one of the installed default design."""
-    return load_unit(options.design or default_design_path(), _full_name(options.node))
+    return load_unit(*design_file_and_node(options))
+
+
+def design_file_and_node(options: argparse.Namespace) -> tuple[Path, str]:
+    """Return the design file, and the full name of the estimator in it, empty if not said."""
+    return Path(options.design or default_design_path()), _full_name(options.node)
+
+
+def design_name(options: argparse.Namespace) -> str:
+    """Return what the design is called in texts."""
+    return Path(options.design).name if options.design else 'the preliminary design'
 
 
 def design_from(options: argparse.Namespace) -> JointDesign:
@@ -84,11 +95,17 @@ def add_tension_stddev_option(
     )
 
 
-def tension_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
-    """Return the option, or what the design file says, or the default, in N."""
+def tension_stddev_of(options: argparse.Namespace, unit: Unit) -> float | None:
+    """Return the option, or what the design file says, in N; None where neither does."""
     if options.tension_stddev is not None:
         return float(options.tension_stddev)
-    return float(unit.get('tension_stddev') or TENSION_STDDEV)
+    stddev = unit.get('tension_stddev')
+    return float(stddev) if stddev else None
+
+
+def tension_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
+    """Return the same, or the default where there is none."""
+    return tension_stddev_of(options, unit) or TENSION_STDDEV
 
 
 def add_load_options(parser: argparse.ArgumentParser) -> None:

@@ -87,7 +87,7 @@ def uncertainty_in(parameters: Mapping[str, object]) -> DesignUncertainty | None
         If it is no covariance of design parameters.
     """
     names, covariance = parameters.get(_UNCERTAIN), parameters.get(_COVARIANCE)
-    if names is None and covariance is None:
+    if names in (None, []) and covariance in (None, []):
         return None
     for key, values in ((_UNCERTAIN, names), (_COVARIANCE, covariance)):
         if not isinstance(values, (list, tuple)):

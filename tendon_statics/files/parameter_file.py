@@ -6,9 +6,12 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
+from typing import TypeVar
 
 from ..physics.errors import TendonStaticsError
 from .yaml_file import YamlFileError, read_yaml
+
+T = TypeVar('T')
 
 ESTIMATOR = 'estimator'
 """Name of the node that computes with a unit, in whatever namespace"""
@@ -75,7 +78,20 @@ def node_parameters(content: object, node: str = '') -> dict[str, object]:
         If the file is for other nodes only, names several estimators and it is not said which, or
         has a parameter twice in one block.
     """
-    blocks = list(parameter_blocks(content))
+    found: dict[str, object] = {}
+    for block in fitting_blocks([*parameter_blocks(content)], node):
+        found |= dotted_parameters(block)
+    return found
+
+
+def fitting_blocks(blocks: Sequence[tuple[str, T]], node: str = '') -> list[T]:
+    """Of blocks with their node names those that a node takes, in the order of the file.
+
+    Raises
+    ------
+    ParameterFileError
+        As `node_parameters` does.
+    """
     node = node or _estimator_in([name for name, _ in blocks])
     fitting = [block for name, block in blocks if fits(name, node)]
     if blocks and not fitting:
@@ -83,10 +99,7 @@ def node_parameters(content: object, node: str = '') -> dict[str, object]:
         raise ParameterFileError(
             f'it is addressed to {others}, so {node} takes nothing from it; /** is for every node'
         )
-    found: dict[str, object] = {}
-    for block in fitting:
-        found |= dotted_parameters(block)
-    return found
+    return fitting
 
 
 def node_parameter(content: object, node: str, parameter: str) -> object:

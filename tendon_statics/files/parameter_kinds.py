@@ -156,3 +156,23 @@ class VectorParameter(Parameter):
             or not all(type(v) in (int, float) and math.isfinite(v) for v in given)
         ):
             raise SettingError(f'{self.name} is {value!r}, but {self.allowed} are needed')
+
+
+@dataclasses.dataclass(frozen=True)
+class ListParameter(Parameter):
+    """Texts, or numbers if it says so, as many as it takes; none at first."""
+
+    default: tuple[()]
+    of_numbers: bool = dataclasses.field(default=False, kw_only=True)
+    is_fixed: bool = dataclasses.field(default=False, kw_only=True)
+
+    @property
+    def allowed(self) -> str:
+        """What is in it."""
+        return 'finite numbers' if self.of_numbers else 'names'
+
+    def check(self, value: object) -> None:
+        """Raise a `SettingError` unless it is a sequence of what is in it."""
+        kinds = (int, float) if self.of_numbers else (str,)
+        if not isinstance(value, (list, tuple)) or any(type(one) not in kinds for one in value):
+            raise SettingError(f'{self.name} is {value!r}, but a list of {self.allowed} is needed')

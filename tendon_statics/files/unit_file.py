@@ -12,7 +12,7 @@ from ..physics.design import JointDesign
 from ..physics.design_uncertainty import DesignUncertainty
 from ..physics.errors import DesignError
 from ..tensions.cable_scale import CableScale
-from .design_file import design_values, uncertainty_in
+from .design_file import design_values
 from .parameter_file import ParameterFileError, node_parameters, read_parameters
 from .parameter_kinds import SettingError
 from .unit_settings import misspelt, settings_from
@@ -25,13 +25,16 @@ class Unit:
     settings: Settings
     parameters: Mapping[str, Any] = dataclasses.field(default_factory=dict)
     """All that the file gives the estimator, by dotted name, as it stands there"""
-    uncertainty: DesignUncertainty | None = None
-    """How well the design is known, if the file says it"""
 
     @property
     def design(self) -> JointDesign:
         """The unit's design."""
         return self.settings.design
+
+    @property
+    def uncertainty(self) -> DesignUncertainty | None:
+        """How well the design is known, if the file says it."""
+        return self.settings.design_uncertainty
 
     @property
     def cable_l(self) -> CableScale:
@@ -82,6 +85,6 @@ def load_unit(path: str | Path, node: str = '') -> Unit:
         key = f'design.{error.key}' if error.key else ''
         raise DesignError(f'{path}: {"design." if error.key else ""}{error}', key=key) from None
     try:
-        return Unit(settings_from(parameters), parameters, uncertainty_in(parameters))
-    except (SettingError, DesignError) as error:
-        raise DesignError(f'{path}: {error}', key=getattr(error, 'key', '')) from None
+        return Unit(settings_from(parameters), parameters)
+    except SettingError as error:
+        raise DesignError(f'{path}: {error}', key=getattr(error.__cause__, 'key', '')) from None

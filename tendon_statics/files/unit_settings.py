@@ -7,13 +7,22 @@ from collections.abc import Mapping
 from difflib import get_close_matches
 from typing import Any
 
+from ..estimation.methods import METHODS
 from ..estimation.settings import Settings
 from ..physics.admissible import check_bend_angle
 from ..physics.design import JointDesign
 from ..physics.errors import BendAngleError, DesignError, LoadError
 from ..tensions.cable_scale import CableScale
 from ..tensions.watch import Plausibility
-from .estimator_parameters import DESIGN, ESTIMATOR_PARAMETERS, NUMBERS, VECTORS, known_names
+from .design_file import uncertainty_in
+from .estimator_parameters import (
+    DESIGN,
+    ESTIMATIONS,
+    ESTIMATOR_PARAMETERS,
+    NUMBERS,
+    VECTORS,
+    known_names,
+)
 from .parameter_kinds import Parameter, SettingError
 
 
@@ -64,6 +73,10 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
     except DesignError as error:
         raise SettingError(f'{DESIGN if error.key else ""}{error}') from None
     check_parameters(values)
+    try:
+        uncertainty = uncertainty_in(values)
+    except DesignError as error:
+        raise SettingError(str(error)) from error
 
     def given(parameter: Parameter) -> Any:
         return values.get(parameter.name, parameter.default)
@@ -80,6 +93,7 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
     try:
         settings = Settings(
             design=design,
+            design_uncertainty=uncertainty,
             cable_l=_cable_scale('cable_l', number),
             cable_s=_cable_scale('cable_s', number),
             plausibility=Plausibility(
@@ -96,6 +110,9 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
         raise SettingError(f'initial_{error}') from None
     except LoadError as error:
         raise SettingError(str(error)) from None
+    refusal = METHODS[values.get('estimation', ESTIMATIONS[0])].refusal(settings)
+    if refusal:
+        raise SettingError(refusal)
     return settings
 
 

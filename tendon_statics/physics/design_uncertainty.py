@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import numbers
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from .design import design_parameters
@@ -88,6 +88,21 @@ class DesignUncertainty:
             return 0.0
         place = self.parameters.index(parameter)
         return math.sqrt(self.covariance[place][place])
+
+    def variance(self, derivatives: Mapping[str, float]) -> float:
+        """Return the variance of what follows the parameters, to first order.
+
+        Parameters
+        ----------
+        derivatives : mapping
+            By each of the parameters; others are left alone.
+        """
+        slopes = [derivatives[name] for name in self.parameters]
+        return sum(
+            one * other * covariance
+            for one, row in zip(slopes, self.covariance, strict=True)
+            for other, covariance in zip(slopes, row, strict=True)
+        )
 
     def _check_definite(self) -> None:
         """Check that it is symmetric and that no combination has a variance below 0.

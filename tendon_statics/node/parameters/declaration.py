@@ -9,7 +9,7 @@ from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescri
 from rclpy.exceptions import InvalidParameterValueException
 from rclpy.node import Node
 
-from ...files.parameter_kinds import NumberParameter, Parameter, VectorParameter
+from ...files.parameter_kinds import ListParameter, NumberParameter, Parameter, VectorParameter
 
 
 def declare(node: Node, parameter: Parameter) -> Any:
@@ -89,6 +89,7 @@ def _descriptor(parameter: Parameter, *, with_range: bool) -> ParameterDescripto
                 kind['floating_point_range'] = [FloatingPointRange(**limits)]
     else:
         kind['additional_constraints'] = parameter.allowed
-    if isinstance(parameter, (NumberParameter, VectorParameter)):
-        kind['dynamic_typing'] = True  # So that `1` is as good as `1.0`.
+    if isinstance(parameter, (NumberParameter, VectorParameter, ListParameter)):
+        # So that `1` is as good as `1.0`, and an empty list as good as one that is not.
+        kind['dynamic_typing'] = True
     return ParameterDescriptor(description=description, **kind)

@@ -10,7 +10,7 @@ from rclpy.node import Node
 
 from ...estimation.settings import Settings
 from ...files.design_file import default_design_path, load_design
-from ...files.estimator_parameters import DESIGN, NUMBERS, VECTORS, WIRING, design_table
+from ...files.estimator_parameters import CHANGEABLE, DESIGN, WIRING, design_table
 from ...files.parameter_kinds import Parameter, SettingError
 from ...files.unit_settings import settings_from
 from ...physics import DesignError, JointDesign, design_fields
@@ -98,10 +98,11 @@ def read_settings(node: Node, changes: Iterable[Any] = ()) -> Settings:
     SettingError
         If the whole is not valid.
     """
-    return settings_from(read_all(node, _changeable(), changes))
+    values = read_all(node, _changeable(), changes)
+    return settings_from({**values, 'estimation': node.get_parameter('estimation').value})
 
 
 @cache
 def _changeable() -> tuple[Parameter, ...]:
     """All that may be set again."""
-    return (*design_table(load_design(default_design_path())), *NUMBERS, *VECTORS)
+    return (*design_table(load_design(default_design_path())), *CHANGEABLE)
