@@ -81,6 +81,12 @@ lint: .venv/.complete ## Check style and types
 docs: setup ## Make again the tables and figures of docs/
 	@$(run) python tools/make_docs.py
 
+.PHONY: site
+site: setup .venv/.site ## Build the documentation as a site, build/site/index.html
+	@$(run) python -m sphinx --fail-on-warning --keep-going --quiet \
+	  --fresh-env --write-all -d build/site.doctrees docs build/site
+	@echo "== build/site/index.html"
+
 .PHONY: clean
 clean: ## Remove all that the targets made
 	rm -rf .venv build install log .hypothesis .mypy_cache .pytest_cache .ruff_cache
@@ -94,8 +100,14 @@ clean: ## Remove all that the targets made
 	@$(run) pip install --quiet -r $<
 	@touch $@
 
+.venv/.site: tools/requirements-site.txt .venv/.complete
+	@echo "== what the site needs: Sphinx, from $<"
+	@$(run) pip install --quiet -r $<
+	@touch $@
+
 install/.complete: .venv/.complete $(sources)
-	@echo "== building tendon_statics_interfaces and tendon_statics into install/"
-	@$(run) python -m colcon build --event-handlers console_cohesion- console_stderr-  desktop_notification- \
+	@echo "== building tendon_statics_interfaces and tendon_statics into install/ (half a minute)"
+	@$(run) python -m colcon build --event-handlers console_cohesion- console_stderr- \
+	    desktop_notification- summary- \
 	  || { echo 'tendon_statics: the build failed; log/latest_build has why' >&2; exit 1; }
 	@touch $@
