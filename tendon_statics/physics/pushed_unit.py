@@ -20,7 +20,8 @@ from .admissible import Interval
 from .contact.quadratic import Line
 from .design import JointDesign
 from .load import DeadLoad
-from .slip import LoadedJoint, Slip
+from .loaded_joint import LoadedJoint
+from .slip import Slip
 from .tensions import Tensions
 
 BOTH_SIDES = (1.0, -1.0)

@@ -9,7 +9,8 @@ from typing import NamedTuple
 from .design import JointDesign
 from .errors import TensionError
 from .load import UPRIGHT, Load, tension_excess
-from .slip import Slip, loaded_joint
+from .loaded_joint import loaded_joint
+from .slip import Slip
 
 NEGLIGIBLE_PULL = 1e-9
 """Share of the dead load below which cable tensions count for nothing"""

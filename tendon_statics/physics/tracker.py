@@ -10,8 +10,9 @@ from .admissible import check_bend_angle
 from .design import JointDesign
 from .gradients import TensionGradient, root_gradient
 from .load import UPRIGHT, DeadLoad, Load
+from .loaded_joint import LoadedJoint
 from .roots import refine
-from .slip import LoadedJoint, Slip
+from .slip import Slip
 from .state import Equilibrium, Regime
 from .tensions import Tensions, check_tensions, taut_slip
 

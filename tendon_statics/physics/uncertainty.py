@@ -14,7 +14,6 @@ regime.
 
 from __future__ import annotations
 
-import bisect
 import math
 from functools import cached_property
 from statistics import NormalDist
@@ -22,16 +21,12 @@ from statistics import NormalDist
 from .design import JointDesign
 from .design_gradients import excess_by_design
 from .design_uncertainty import DesignUncertainty
-from .errors import TensionError
+from .drawn_slip_angles import DrawnSlipAngles
 from .gradients import slip_by_tensions
 from .load import UPRIGHT, Load
 from .slip import Slip
-from .solver import solve
 from .state import Regime
 from .tensions import Tensions, check_tensions, taut_slip
-
-DRAWS = 8192
-"""Pairs that are solved where there is no closed form"""
 
 FAR = 5.0
 """Standard deviations that count as never"""
@@ -273,85 +268,7 @@ class SlipAngleDistribution:
         return float(slip.value(ahead))
 
     @cached_property
-    def _drawn(self) -> _Drawn:
-        return _Drawn(self._design, self._tensions, self._load, self._stddev, self._uncertainty)
-
-
-class _Drawn:
-    """The same from draws of tensions and design, solved one by one or as a batch."""
-
-    def __init__(
-        self,
-        design: JointDesign,
-        tensions: Tensions,
-        load: Load,
-        tension_stddev: float,
-        uncertainty: DesignUncertainty | None,
-    ) -> None:
-        import numpy as np  # Here, for who stays in closed form should not wait for it.
-
-        from .batch import INVALID, REGIME_CODES, solve_batch
-        from .draws import draw_designs, draw_normals
-
-        parameters = 0 if uncertainty is None else len(uncertainty.parameters)
-        normals = draw_normals(DRAWS, 2 + parameters)
-        pairs = np.array(tensions)[:, None] + tension_stddev * normals[:2]
-        # A tension below zero is one of a slack cable.
-        pairs = np.maximum(pairs, 0.0)
-        if uncertainty is not None:
-            designs = draw_designs(design, uncertainty, normals[2:])
-            # One by one: a batch is of one design.
-            answers = [
-                _answer(one, left, right, load)
-                for one, (left, right) in zip(designs, pairs.T.tolist(), strict=True)
-            ]
-            regimes = np.array(
-                [INVALID if regime is None else REGIME_CODES[regime] for regime, _ in answers]
-            )
-            angles = np.array([angle for _, angle in answers])
-        else:
-            batch = solve_batch(design, pairs[0], pairs[1], load)
-            regimes, angles = batch.regime, batch.bend_angle
-        self._regimes = regimes
-        self._codes = REGIME_CODES
-        at_root = regimes == REGIME_CODES[Regime.EQUILIBRIUM]
-        self._angles: list[float] = sorted(angles[at_root].tolist())
-        driven = regimes == REGIME_CODES[Regime.DRIVEN_TO_STOP]
-        self._driven = {side: int(np.sum(driven & (side * angles > 0.0))) for side in (1.0, -1.0)}
-        self._of_side = {
-            1.0: int(np.sum(pairs[1] >= pairs[0])),
-            -1.0: int(np.sum(pairs[1] < pairs[0])),
-        }
-
-    def probability(self, regime: Regime) -> float:
-        return float((self._regimes == self._codes[regime]).mean())
-
-    def cdf(self, angle: float) -> float:
-        side = -1.0 if angle < 0.0 else 1.0
-        count = sum(0.0 <= side * one <= side * angle for one in self._angles)
-        return (self._driven[side] + count) / max(self._of_side[side], 1)
-
-    def quantile(self, q: float) -> float | None:
-        place = bisect.bisect_left(
-            range(len(self._angles)), q, key=lambda index: self.cdf(self._angles[index])
+    def _drawn(self) -> DrawnSlipAngles:
+        return DrawnSlipAngles(
+            self._design, self._tensions, self._load, self._stddev, self._uncertainty
         )
-        if not self._angles or place == len(self._angles) or q < self.cdf(0.0):
-            return None
-        return self._angles[place]
-
-    def interval(self, level: float) -> tuple[float, float] | None:
-        if not self._angles:
-            return None
-        outside = int(0.5 * (1.0 - level) * len(self._angles))
-        return self._angles[outside], self._angles[-1 - outside]
-
-
-def _answer(
-    design: JointDesign, tension_l: float, tension_s: float, load: Load
-) -> tuple[Regime | None, float]:
-    """Regime and bend angle in rad; None and NaN where there is none."""
-    try:
-        answer = solve(design, tension_l, tension_s, load)
-    except TensionError:
-        return None, math.nan
-    return answer.regime, math.nan if answer.bend_angle is None else answer.bend_angle

@@ -20,7 +20,8 @@ from tendon_statics.physics import UPRIGHT
 from tendon_statics.physics.array_numbers import ARRAYS
 from tendon_statics.physics.batch import INVALID, REGIME_CODES, results, solver
 from tendon_statics.physics.contact import CONTACT_LAWS
-from tendon_statics.physics.slip import LoadedJoint, Slip
+from tendon_statics.physics.loaded_joint import LoadedJoint
+from tendon_statics.physics.slip import Slip
 
 from .rows import Row, at_least, at_most
 from .stop_watches import StopWatches

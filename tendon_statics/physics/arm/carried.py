@@ -18,7 +18,7 @@ from fractions import Fraction
 
 from ..errors import LoadError, TensionError
 from ..load import DeadLoad, Load, tension_excess
-from ..slip import LoadedJoint
+from ..loaded_joint import LoadedJoint
 from ..tensions import NEGLIGIBLE_PULL, Tensions
 from .arm import Arm
 

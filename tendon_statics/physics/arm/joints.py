@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 from ..admissible import check_bend_angle
 from ..errors import ArmError, BendAngleError, TensionError
 from ..load import UPRIGHT, Load
-from ..slip import LoadedJoint, Probe, Slip
+from ..loaded_joint import LoadedJoint
+from ..slip import Probe, Slip
 from ..tensions import Tensions
 from .arm import Arm
 from .cables import crossings, pair_at, slack_joint, transmitted

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..load import UPRIGHT, Load
-from ..slip import LoadedJoint
+from ..loaded_joint import LoadedJoint
 from ..state import Equilibrium, Regime
 from ..tensions import Tensions
 from ..tracker import StickSlipTracker

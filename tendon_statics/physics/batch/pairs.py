@@ -13,7 +13,8 @@ from ..array_roots import Floats
 from ..design import JointDesign
 from ..errors import LoadError, TensionError
 from ..load import DeadLoad, Load, tension_excess
-from ..slip import LoadedJoint, Slip
+from ..loaded_joint import LoadedJoint
+from ..slip import Slip
 
 CHUNK = 16384
 """Pairs that are worked on at a time, so that the processor's cache holds them"""

@@ -24,8 +24,9 @@ from ..array_roots import Floats
 from ..design import JointDesign
 from ..gradients import normal_by_tensions, slip_by_tensions
 from ..load import UPRIGHT, Load
+from ..loaded_joint import LoadedJoint
 from ..sample_loads import SampleLoads, seating_tension
-from ..slip import LoadedJoint, Slip
+from ..slip import Slip
 from .load_cells import AS_MEASURED, LoadCells
 
 

@@ -19,8 +19,9 @@ from ..array_numbers import ARRAYS
 from ..array_roots import Floats
 from ..errors import CalibrationError
 from ..load import Load
+from ..loaded_joint import LoadedJoint
 from ..sample_loads import SampleLoads
-from ..slip import LoadedJoint, Slip
+from ..slip import Slip
 from .parameters import Model, ParameterSpace
 from .problem import Problem
 from .samples import SortedSamples

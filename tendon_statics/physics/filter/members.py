@@ -11,8 +11,9 @@ from ..array_numbers import ARRAYS
 from ..contact.law import map_arrays
 from ..design import JointDesign
 from ..load import DeadLoad
+from ..loaded_joint import LoadedJoint
 from ..roots import refine
-from ..slip import ROUNDING, LoadedJoint, Slip
+from ..slip import ROUNDING, Slip
 from ..stacked_design import StackedDesign
 
 Floats = NDArray[np.float64]
