@@ -8,7 +8,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from ..physics.errors import TendonStaticsError
-from .yaml_file import YamlFileError, read_yaml
+from .yaml_file import YamlFileError, read_yaml, read_yaml_text
 
 ESTIMATOR = 'estimator'
 """Name of the node that computes with a unit, in whatever namespace"""
@@ -28,6 +28,20 @@ def read_parameters(path: Path) -> object:
     """
     try:
         return read_yaml(path, aliases=False)
+    except YamlFileError as error:
+        raise ParameterFileError(str(error)) from None
+
+
+def parameters_in(text: str) -> object:
+    """Read what stands in a parameter file, as `read_parameters` does.
+
+    Raises
+    ------
+    ParameterFileError
+        As there.
+    """
+    try:
+        return read_yaml_text(text, aliases=False)
     except YamlFileError as error:
         raise ParameterFileError(str(error)) from None
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 from typing import Any
 
 from ..physics.errors import TendonStaticsError
@@ -11,6 +12,10 @@ from ..physics.errors import TendonStaticsError
 
 class SettingError(TendonStaticsError, ValueError):
     """A parameter has a value that is not allowed; the text is for the user."""
+
+
+class MisfitError(SettingError):
+    """Values of parameters do not fit together, though each is allowed by itself."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -27,6 +32,10 @@ class Parameter:
     def allowed(self) -> str:
         """What it may be, as a person reads it; empty if that is all of its type."""
         return ''
+
+    def converted(self, value: Any) -> Any:
+        """Return a value in the type that the node keeps, if it can be meant as such."""
+        return value
 
     def check(self, value: object) -> None:
         """Raise a `SettingError` for a value that is not allowed."""
@@ -105,13 +114,24 @@ class NumberParameter(Parameter):
     minimum: float = dataclasses.field(kw_only=True)
     maximum: float = dataclasses.field(kw_only=True)
     unit: str = dataclasses.field(default='', kw_only=True)
+    may_be_zero: bool = dataclasses.field(default=True, kw_only=True)
     is_fixed: bool = dataclasses.field(default=False, kw_only=True)
 
     @property
     def allowed(self) -> str:
         """The range as a person reads it, say ``0 to 1000 N``."""
         unit = f' {self.unit}' if self.unit else ''
-        return f'{self.minimum:.10g} to {self.maximum:.10g}{unit}'
+        zero = '' if self.may_be_zero else ', not 0'
+        return f'{self.minimum:.10g} to {self.maximum:.10g}{unit}{zero}'
+
+    def converted(self, value: Any) -> Any:
+        """Return a float for a whole number, unless it counts, and a number for its text.
+
+        ``ros2 param set`` makes an integer of ``1`` and a text of ``1e-2``.
+        """
+        if isinstance(value, str) and _NUMBER.fullmatch(value):
+            value = int(value) if value.lstrip('+-').isdecimal() else float(value)
+        return value if self.is_integer else _as_float(value)
 
     def fixed(self) -> NumberParameter:
         """Return the same for a node in which it can only be set at the start."""
@@ -129,7 +149,7 @@ class NumberParameter(Parameter):
             raise SettingError(
                 f'{self.name} is {value!r}, which is not {name}: allowed is {self.allowed}'
             )
-        if not self.minimum <= value <= self.maximum:
+        if not self.minimum <= value <= self.maximum or (value == 0 and not self.may_be_zero):
             raise SettingError(f'{self.name} is {value!r}, allowed is {self.allowed}')
 
 
@@ -146,6 +166,12 @@ class VectorParameter(Parameter):
         """Three numbers."""
         return 'three finite numbers'
 
+    def converted(self, value: Any) -> Any:
+        """Return floats for whole numbers."""
+        if not hasattr(value, '__iter__') or isinstance(value, str):
+            return value
+        return [_as_float(number) for number in value]
+
     def check(self, value: object) -> None:
         """Raise a `SettingError` unless it is a sequence of three finite numbers."""
         # An array from ROS is no list; an empty one comes as None.
@@ -156,3 +182,11 @@ class VectorParameter(Parameter):
             or not all(type(v) in (int, float) and math.isfinite(v) for v in given)
         ):
             raise SettingError(f'{self.name} is {value!r}, but {self.allowed} are needed')
+
+
+_NUMBER = re.compile(r'[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?')
+
+
+def _as_float(value: Any) -> Any:
+    """Return a float for an integer, and anything else as it is."""
+    return float(value) if isinstance(value, int) and not isinstance(value, bool) else value

@@ -8,13 +8,16 @@ from difflib import get_close_matches
 from typing import Any
 
 from ..estimation.settings import Settings
+from ..physics import Load
 from ..physics.admissible import check_bend_angle
-from ..physics.design import JointDesign
-from ..physics.errors import BendAngleError, DesignError, LoadError
+from ..physics.design import JointDesign, design_fields
+from ..physics.errors import BendAngleError, DesignError, DesignMisfitError, LoadError
 from ..tensions.cable_scale import CableScale
 from ..tensions.watch import Plausibility
 from .estimator_parameters import DESIGN, ESTIMATOR_PARAMETERS, NUMBERS, VECTORS, known_names
-from .parameter_kinds import Parameter, SettingError
+from .parameter_kinds import MisfitError, Parameter, SettingError
+
+GRAVITY_DIRECTION = 'gravity_direction'
 
 
 def misspelt(names: Mapping[str, object]) -> list[str]:
@@ -40,6 +43,14 @@ def check_parameters(values: Mapping[str, object]) -> None:
     for parameter in ESTIMATOR_PARAMETERS:
         if parameter.name in values:
             parameter.check(values[parameter.name])
+    for field in design_fields():
+        if DESIGN + field.name in values:
+            try:
+                field.check(values[DESIGN + field.name])
+            except DesignError as error:
+                raise SettingError(f'{DESIGN}{error}') from None
+    if GRAVITY_DIRECTION in values:
+        _check_direction(values[GRAVITY_DIRECTION])
 
 
 def settings_from(values: Mapping[str, Any]) -> Settings:
@@ -50,9 +61,11 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
     Raises
     ------
     SettingError
-        If a value, or the whole, is not valid; the text names the parameter, its value and what
-        is allowed.
+        If a value is not valid; the text names the parameter, its value and what is allowed.
+    MisfitError
+        If each is valid by itself, and the whole is not.
     """
+    check_parameters(values)
     try:
         design = JointDesign.from_mapping(
             {
@@ -62,8 +75,8 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
             }
         )
     except DesignError as error:
-        raise SettingError(f'{DESIGN if error.key else ""}{error}') from None
-    check_parameters(values)
+        kind = MisfitError if isinstance(error, DesignMisfitError) else SettingError
+        raise kind(f'{DESIGN if error.key else ""}{error}') from None
 
     def given(parameter: Parameter) -> Any:
         return values.get(parameter.name, parameter.default)
@@ -91,25 +104,18 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
             **plain,
         )
         check_bend_angle(design, settings.initial_bend_angle)
-        _ = settings.load
     except BendAngleError as error:
-        raise SettingError(f'initial_{error}') from None
-    except LoadError as error:
-        raise SettingError(str(error)) from None
+        raise MisfitError(f'initial_{error}') from None
     return settings
 
 
-def _cable_scale(cable: str, number: Mapping[str, float]) -> CableScale:
-    """Make a cable's scale.
+def _check_direction(direction: Any) -> None:
+    try:
+        Load(tuple(map(float, direction)))  # type: ignore[arg-type]
+    except LoadError as error:
+        raise SettingError(str(error)) from None
 
-    Raises
-    ------
-    SettingError
-        If its gain is 0.
-    """
-    scale = CableScale(**{name: float(number[f'{cable}.{name}']) for name in CableScale._fields})
-    if scale.gain == 0.0:
-        raise SettingError(
-            f'{cable}.gain is 0.0, with which the tension does not follow what is measured'
-        )
-    return scale
+
+def _cable_scale(cable: str, number: Mapping[str, float]) -> CableScale:
+    """Make a cable's scale."""
+    return CableScale(**{name: float(number[f'{cable}.{name}']) for name in CableScale._fields})

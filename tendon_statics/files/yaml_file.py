@@ -27,6 +27,23 @@ def read_yaml(path: Path, *, aliases: bool = True) -> object:
         If the file cannot be read, is not valid YAML, has a key twice, or a number that readers of
         YAML differ in; the text does not name the file.
     """
+    try:
+        text = path.read_text(encoding='utf-8')
+    except OSError as error:
+        raise YamlFileError(f'it cannot be read: {error.strerror}') from None
+    except UnicodeDecodeError:
+        raise YamlFileError('it is not a text file in UTF-8') from None
+    return read_yaml_text(text, aliases=aliases)
+
+
+def read_yaml_text(text: str, *, aliases: bool = True) -> object:
+    """Read what stands in a YAML file, as `read_yaml` does.
+
+    Raises
+    ------
+    YamlFileError
+        As there.
+    """
     import yaml  # Here, so that the physics can be used where PyYAML is not installed.
 
     class Loader(yaml.SafeLoader):
@@ -79,12 +96,6 @@ def read_yaml(path: Path, *, aliases: bool = True) -> object:
             *Loader.yaml_implicit_resolvers.get(first, ()),
         ]
     Loader.add_constructor(_AMBIGUOUS_TAG, Loader.refuse_number)
-    try:
-        text = path.read_text(encoding='utf-8')
-    except OSError as error:
-        raise YamlFileError(f'it cannot be read: {error.strerror}') from None
-    except UnicodeDecodeError:
-        raise YamlFileError('it is not a text file in UTF-8') from None
     try:
         return yaml.load(text, Loader)
     except YamlFileError:

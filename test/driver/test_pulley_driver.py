@@ -293,7 +293,10 @@ def test_it_warns_of_parameters_that_nobody_has():
         ('wrench_component:=w', "wrench_component is 'w', allowed is z or x or y or norm"),
         ('cable_names:=[a]', "cable_names is ['a'], two different names are needed"),
         ('cable_names:=[a, a]', "cable_names is ['a', 'a'], two different names"),
-        ('cable_s.gain:=0', 'cable_s.gain is 0, but N = gain raw + bias needs another'),
+        (
+            'cable_s.gain:=0',
+            '1000000 N per unit, not 0',
+        ),
         ('cable_l.bias:=.inf', 'cable_l.bias is inf, allowed is'),
         ('repeated_stamp_probability:=0.1', 'but tension_source is array, of which no message'),
     ],

@@ -242,7 +242,7 @@ def test_a_changed_design_applies_to_the_next_message(running):
             {'design__mass': 0.05, 'design__ball_radius': 0.0},
             'ball_radius',
         ),
-        ({'design__mass': 0.05, 'design__masss': 0.1}, 'undeclared parameter'),
+        ({'design__mass': 0.05, 'design__masss': 0.1}, 'there is no such parameter'),
         ({'design__mass': 0.05, 'tension_stddev': -1.0}, 'tension_stddev'),
         ({'design__mass': 0.05, 'tension_stddev': 'x'}, 'tension_stddev'),
     ],

@@ -11,7 +11,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header, String
@@ -19,12 +19,19 @@ from visualization_msgs.msg import MarkerArray
 
 from ...estimation.settings import Settings
 from ...physics import Equilibrium
+from ..overridable_qos import OVERRIDABLE
 from ..parameters.estimator import Wiring
 from .finding import FILLS, Fill, Finding
 from .markers import no_markers, unit_markers
 
 OUTPUT_DEPTH = 100
 """Messages kept for a subscriber that is slow"""
+
+STATES = ('~/regime', '~/markers')
+"""Topics that say a state, which holds until they say another"""
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+"""So that who joins later hears the state; volatile subscribers fit as well"""
 
 MARKER_PERIOD = 0.05
 """Least time in s between two drawings of the unit"""
@@ -54,6 +61,7 @@ class Outputs:
             if isinstance(output.message, JointState):
                 output.message.name = [wiring.joint_name]
         self._regime = self._of_findings[0].publisher
+        self._latched_regime = ''
         self._markers = self._publisher(MarkerArray, '~/markers') if wiring.markers else None
         self._next_drawing = 0.0
         self._diagnostics = self._publisher(DiagnosticArray, '/diagnostics')
@@ -62,8 +70,8 @@ class Outputs:
         return self._node.create_publisher(
             message_type,
             topic,
-            QoSProfile(depth=OUTPUT_DEPTH),
-            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+            LATCHED if topic in STATES else QoSProfile(depth=OUTPUT_DEPTH),
+            qos_overriding_options=QoSOverridingOptions(OVERRIDABLE),
             # Its events would be waited for with every message, at more than the cost of a solve.
             # A subscriber whose QoS does not fit is warned of it by its own node.
             event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
@@ -83,6 +91,7 @@ class Outputs:
             # Of the handle itself, for a fifth of the time, since all are asked each time.
             if publisher.handle.get_subscription_count() > 0 and fill(message, finding):
                 publisher.publish(message)
+        self._latch_regime(result.regime.value)
         if (
             self._markers is not None
             and self._markers.handle.get_subscription_count() > 0
@@ -93,7 +102,15 @@ class Outputs:
 
     def say_regime(self, regime: str) -> None:
         """Publish what is said where there is no result, say ``stale``."""
+        self._latched_regime = regime
         self._regime.publish(String(data=regime))
+
+    def _latch_regime(self, regime: str) -> None:
+        """Publish a regime that nobody hears yet, if it is another than the last."""
+        if regime != self._latched_regime:
+            if self._regime.handle.get_subscription_count() == 0:
+                self.say_regime(regime)
+            self._latched_regime = regime
 
     def clear_drawing(self) -> None:
         """Take away what is drawn in RViz."""
