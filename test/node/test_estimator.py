@@ -6,14 +6,17 @@ import signal
 import sys
 import threading
 import time
+from contextlib import suppress
 
 import numpy as np
 import pytest
 from designs import PRELIMINARY
 from listener import reliable_input
-from rclpy.qos import ReliabilityPolicy
-from ros_programs import Program, wait_for
-from std_msgs.msg import Float64
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from ros_programs import Program, spinning, wait_for
+from std_msgs.msg import Float64, Float64MultiArray, String
+from std_srvs.srv import Trigger
 from tendon_statics_interfaces.msg import Estimate
 
 from tendon_statics import Regime, default_design_path, load_design, solve
@@ -574,15 +577,65 @@ def test_inputs_are_best_effort_outputs_reliable_and_both_can_be_overridden(list
         for topic in TOPICS:
             given = listener.get_publishers_info_by_topic(f'/estimator/{topic}')
             assert reliability(given) == ReliabilityPolicy.RELIABLE
-    override = 'qos_overrides./tensions.subscription.reliability:=reliable'
-    with listener.estimator('-p', override):
+    overrides = (
+        'qos_overrides./tensions.subscription.reliability:=reliable',
+        'qos_overrides./estimator/regime.publisher.durability:=volatile',
+    )
+    with listener.estimator(*(part for rule in overrides for part in ('-p', rule)), greet=False):
         wait_for(
             'the estimator that went to be forgotten',
             lambda: len(listener.get_subscriptions_info_by_topic('/tensions')) == 1,
         )
         listener.wait_for_node('estimator')
-        taken = listener.get_subscriptions_info_by_topic('/tensions')
-        assert reliability(taken) == ReliabilityPolicy.RELIABLE
+        (taken,) = listener.get_subscriptions_info_by_topic('/tensions')
+        assert taken.qos_profile.reliability == ReliabilityPolicy.RELIABLE
+        (given,) = listener.get_publishers_info_by_topic('/estimator/regime')
+        assert given.qos_profile.durability == DurabilityPolicy.VOLATILE
+
+
+def test_who_joins_later_hears_the_regime(listener):
+    """Said once, ``stale`` holds until tensions come again; nobody has to have been there."""
+    latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+    def late_regimes() -> list[str]:
+        heard = []
+        with spinning(lambda context: Node('late', context=context)) as late:
+            late.create_subscription(
+                String, 'estimator/regime', lambda message: heard.append(message.data), latched
+            )
+            wait_for('the regime', lambda: heard)
+        return heard
+
+    with listener.estimator('-p', 'input_timeout:=0.2'):
+        listener.answer(*STOP)
+        wait_for('that it is stale', lambda: listener.stale_regimes)
+        assert late_regimes() == ['stale']
+
+
+def test_the_regime_is_there_for_who_joins_later_though_nobody_heard_it():
+    heard = []
+    latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    with (
+        spinning(lambda context: Node('driver', context=context)) as driver,
+        Program.running('estimator', '--ros-args', '-p', 'input_timeout:=600.0'),
+    ):
+        tensions = driver.create_publisher(Float64MultiArray, 'tensions', 10)
+        latest = driver.create_client(Trigger, 'estimator/solve_latest')
+
+        def taken() -> bool:
+            tensions.publish(Float64MultiArray(data=list(SLIPPING)))
+            asked = latest.call_async(Trigger.Request())
+            with suppress(TimeoutError):
+                wait_for('an answer', asked.done, time_limit=2.0)
+            return asked.done() and asked.result().success
+
+        wait_for('tensions to be taken', taken)
+        with spinning(lambda context: Node('late', context=context)) as late:
+            late.create_subscription(
+                String, 'estimator/regime', lambda message: heard.append(message.data), latched
+            )
+            wait_for('the regime', lambda: heard)
+    assert heard == ['equilibrium']
 
 
 def test_what_came_by_mistake_is_said(tmp_path, listener):
