@@ -16,7 +16,13 @@ from ..recordings.plausible_fit import objections
 from ..recordings.recording import Recording
 from .calibration_options import add_calibration_options, calibration_from, states_text
 from .calibration_text import calibration_text
-from .options import add_design_option, add_format_option, add_load_options, print_json
+from .options import (
+    add_design_option,
+    add_format_option,
+    add_load_options,
+    print_json,
+    say_written,
+)
 from .recording_options import add_recording_options, report_damage, unit_and_recording
 from .replay_text import reading_facts
 from .tables import Facts
@@ -71,6 +77,8 @@ def run(options: argparse.Namespace) -> int:
         print(text)
     if options.output is not None and unwritten:
         raise OutputError(f'{options.output}: {unwritten}')
+    if options.output is not None:
+        say_written(options.output, options)
     return report_damage(recording)
 
 

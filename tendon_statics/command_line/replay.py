@@ -19,6 +19,7 @@ from .options import (
     add_design_option,
     add_load_options,
     add_tension_stddev_option,
+    say_written,
     tension_stddev_from,
 )
 from .progress import with_progress
@@ -88,6 +89,8 @@ def run(options: argparse.Namespace) -> int:
     if write is not None:
         write(options.output, replayed, with_progress)
     print(fact_lines(replay_facts(replayed, unit.design)))
+    if write is not None:
+        say_written(options.output, options)
     return report_damage(recording)
 
 

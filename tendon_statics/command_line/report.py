@@ -31,7 +31,7 @@ from .calibration_text import (
 from .figure_calibration import draw_calibration
 from .figure_recording import draw_replay
 from .figures import svg_of
-from .options import add_design_option, add_load_options
+from .options import add_design_option, add_load_options, say_written
 from .recording_options import add_recording_options, report_damage, unit_and_recording
 from .replay import add_estimation_options, replay_from
 from .replay_text import replay_facts
@@ -124,6 +124,7 @@ def run(options: argparse.Namespace) -> int:
     )
     with output_file(path) as temporary:
         temporary.write_text(page, encoding='utf-8')
+    say_written(path, options)
     if note:
         print(note, file=sys.stderr)
     return report_damage(recording)

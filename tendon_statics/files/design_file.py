@@ -12,12 +12,12 @@ from ..physics.errors import DesignError
 from .installed_files import installed_config
 from .output_file import output_file
 from .parameter_file import (
-    ParameterFileError,
     dotted_parameters,
     node_parameters,
     parameter_blocks,
     read_parameters,
 )
+from .parameter_form import ParameterFileError
 
 _PREFIX = 'design.'
 _UNCERTAIN = 'design_uncertainty.parameters'

@@ -7,15 +7,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 
-from ..physics.errors import TendonStaticsError
+from .parameter_form import ParameterFileError, check_form, in_line
 from .yaml_file import YamlFileError, read_yaml, read_yaml_text
 
 ESTIMATOR = 'estimator'
 """Name of the node that computes with a unit, in whatever namespace"""
-
-
-class ParameterFileError(TendonStaticsError, ValueError):
-    """A file that is no parameter file, or none for the node; the text does not name it."""
 
 
 def read_parameters(path: Path) -> object:
@@ -24,12 +20,15 @@ def read_parameters(path: Path) -> object:
     Raises
     ------
     ParameterFileError
-        If it cannot be read, is not valid YAML, or means different things to different readers.
+        If it cannot be read, is not valid YAML, has not the form that ROS takes, or means
+        different things to different readers.
     """
     try:
-        return read_yaml(path, aliases=False)
+        content = read_yaml(path, aliases=False)
     except YamlFileError as error:
         raise ParameterFileError(str(error)) from None
+    check_form(content)
+    return content
 
 
 def parameters_in(text: str) -> object:
@@ -41,9 +40,11 @@ def parameters_in(text: str) -> object:
         As there.
     """
     try:
-        return read_yaml_text(text, aliases=False)
+        content = read_yaml_text(text, aliases=False)
     except YamlFileError as error:
         raise ParameterFileError(str(error)) from None
+    check_form(content)
+    return content
 
 
 def parameter_blocks(content: object, name: str = '') -> Iterator[tuple[str, object]]:
@@ -54,6 +55,28 @@ def parameter_blocks(content: object, name: str = '') -> Iterator[tuple[str, obj
                 yield name, value
             else:
                 yield from parameter_blocks(value, f'{name}/{key}'.replace('//', '/'))
+
+
+def only_for(content: object) -> str:
+    """Say that a node ``/estimator`` takes nothing from a file; empty if it does."""
+    plain = f'/{ESTIMATOR}'
+    if any(fits(name, plain) for name, _ in parameter_blocks(content)):
+        return ''
+    return (
+        f'it is addressed to {", ".join(_addressed(content))} alone, so a node started as {plain} '
+        'would refuse it; /** is for every node'
+    )
+
+
+def _addressed(content: object, name: str = '', place: str = '') -> Iterator[str]:
+    """The names that a file has parameters for, with the lines in which they stand."""
+    if isinstance(content, Mapping):
+        for key, value in content.items():
+            if key == 'ros__parameters':
+                yield name + place
+            else:
+                full = f'{name}/{key}'.replace('//', '/')
+                yield from _addressed(value, full, in_line(content, key))
 
 
 def dotted_parameters(block: object) -> dict[str, object]:
@@ -93,9 +116,9 @@ def node_parameters(content: object, node: str = '') -> dict[str, object]:
     node = node or _estimator_in([name for name, _ in blocks])
     fitting = [block for name, block in blocks if fits(name, node)]
     if blocks and not fitting:
-        others = ', '.join(dict.fromkeys(name for name, _ in blocks))
         raise ParameterFileError(
-            f'it is addressed to {others}, so {node} takes nothing from it; /** is for every node'
+            f'it is addressed to {", ".join(_addressed(content))}, so {node} takes nothing from '
+            f'it: write {node} there, or /** for every node'
         )
     found: dict[str, object] = {}
     for block in fitting:

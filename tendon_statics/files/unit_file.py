@@ -13,7 +13,8 @@ from ..physics.design_uncertainty import DesignUncertainty
 from ..physics.errors import DesignError
 from ..tensions.cable_scale import CableScale
 from .design_file import design_values, uncertainty_in
-from .parameter_file import ParameterFileError, node_parameters, read_parameters
+from .parameter_file import node_parameters, only_for, read_parameters
+from .parameter_form import ParameterFileError
 from .parameter_kinds import SettingError
 from .unit_settings import misspelt, settings_from
 
@@ -27,6 +28,8 @@ class Unit:
     """All that the file gives the estimator, by dotted name, as it stands there"""
     uncertainty: DesignUncertainty | None = None
     """How well the design is known, if the file says it"""
+    addressed: str = ''
+    """That the file is for estimators in other places than a plain one alone, if it is"""
 
     @property
     def design(self) -> JointDesign:
@@ -69,7 +72,8 @@ def load_unit(path: str | Path, node: str = '') -> Unit:
     """
     path = Path(path)
     try:
-        parameters = node_parameters(read_parameters(path), node)
+        content = read_parameters(path)
+        parameters = node_parameters(content, node)
         design = design_values(parameters)
         if not design:
             raise DesignError(
@@ -82,6 +86,12 @@ def load_unit(path: str | Path, node: str = '') -> Unit:
         key = f'design.{error.key}' if error.key else ''
         raise DesignError(f'{path}: {"design." if error.key else ""}{error}', key=key) from None
     try:
-        return Unit(settings_from(parameters), parameters, uncertainty_in(parameters))
+        addressed = '' if node else only_for(content)
+        return Unit(
+            settings_from(parameters),
+            parameters,
+            uncertainty_in(parameters),
+            f'{path}: {addressed}' if addressed else '',
+        )
     except (SettingError, DesignError) as error:
         raise DesignError(f'{path}: {error}', key=getattr(error, 'key', '')) from None

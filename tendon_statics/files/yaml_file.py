@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -11,6 +12,14 @@ from ..physics.errors import TendonStaticsError
 
 class YamlFileError(TendonStaticsError, ValueError):
     """A file is not valid YAML."""
+
+
+class LinedMapping(dict[Any, Any]):
+    """A mapping that knows in which lines of the file its keys stand."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.lines: dict[Any, int] = {}
 
 
 def read_yaml(path: Path, *, aliases: bool = True) -> object:
@@ -64,6 +73,12 @@ def read_yaml_text(text: str, *, aliases: bool = True) -> object:
                     seen.add(key.value)
             return super().construct_mapping(node, deep)
 
+        def construct_map(self, node: yaml.MappingNode) -> Iterator[LinedMapping]:
+            mapping = LinedMapping()
+            yield mapping
+            mapping.update(self.construct_mapping(node))
+            mapping.lines = {key.value: key.start_mark.line + 1 for key, _ in node.value}
+
         def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
             if not aliases and self.check_event(yaml.AliasEvent):
                 event = self.peek_event()
@@ -87,6 +102,7 @@ def read_yaml_text(text: str, *, aliases: bool = True) -> object:
             is_integer = text.lstrip('+-').isdigit() and abs(number) < _TOO_LARGE_FOR_AN_INTEGER
             return int(text) if is_integer else number
 
+    Loader.add_constructor('tag:yaml.org,2002:map', Loader.construct_map)
     Loader.add_implicit_resolver(_NUMBER_TAG, _NUMBER, list('-+.0123456789'))
     Loader.add_constructor(_NUMBER_TAG, Loader.construct_number)
     # Before all others: the first that fits counts.

@@ -12,11 +12,11 @@ from rclpy.parameter import Parameter
 from ..files.design_file import design_values
 from ..files.estimator_parameters import DESIGN, ESTIMATOR_PARAMETERS
 from ..files.parameter_file import (
-    ParameterFileError,
     node_parameters,
     parameters_in,
     read_parameters,
 )
+from ..files.parameter_form import ParameterFileError
 from ..physics import DesignError, JointDesign
 from .outputs import messages
 from .parameters.estimator import in_its_type

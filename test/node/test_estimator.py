@@ -7,6 +7,7 @@ import sys
 import threading
 import time
 from contextlib import suppress
+from importlib.metadata import version
 
 import numpy as np
 import pytest
@@ -20,6 +21,8 @@ from std_srvs.srv import Trigger
 from tendon_statics_interfaces.msg import Estimate
 
 from tendon_statics import Regime, default_design_path, load_design, solve
+from tendon_statics.files.driver_parameters import DRIVER_PARAMETERS
+from tendon_statics.files.estimator_parameters import ESTIMATOR_PARAMETERS
 from tendon_statics.physics import (
     StickSlipTracker,
     admissible_angles,
@@ -327,14 +330,29 @@ def test_a_bad_parameter_at_the_start_is_one_line_and_exit_code_1(argument, name
         assert 'Traceback' not in program.output()
 
 
-def test_a_corrupt_parameter_file_ends_the_start_without_a_traceback(tmp_path):
+@pytest.mark.parametrize(
+    ('text', 'named'),
+    [
+        ('/**:\n  ros__parameters: [', 'it is not valid YAML in line 2'),
+        ('design:\n  mass: 1.0\n', 'mass in line 2 is not below ros__parameters'),
+    ],
+)
+def test_a_corrupt_parameter_file_is_one_line_that_names_file_and_line(text, named, tmp_path):
     path = tmp_path / 'corrupt.yaml'
-    path.write_text('/**:\n  ros__parameters: [')
+    path.write_text(text)
     with Program.running('estimator', '--ros-args', '--params-file', str(path)) as program:
         assert program.wait() == 1
-        assert 'estimator cannot start: ' in program.output()
-        assert str(path) in program.output()
-        assert 'Traceback' not in program.output()
+        (line,) = program.output().splitlines()
+        assert line.startswith(f'estimator cannot start: {path}: {named}')
+
+
+def test_what_ros_itself_refuses_is_said_without_its_sources():
+    with Program.running('estimator', '--ros-args', '-p', 'mass') as program:
+        assert program.wait() == 1
+        line = program.output().splitlines()[-1]
+        assert line.startswith('estimator cannot start: ')
+        assert 'mass' in line
+        assert '.c:' not in line
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM], ids=lambda n: n.name)
@@ -656,7 +674,28 @@ def test_what_came_by_mistake_is_said(tmp_path, listener):
         assert 'Changed: design.mass = 0.03' in program.output()
 
 
-@pytest.mark.parametrize('argument', ['--help', '--params-file', 'unit.yaml'])
+@pytest.mark.parametrize(
+    'arguments', [('--help',), ('-h',), ('--ros-args', '-p', 'joint_name:=a', '--', '--help')]
+)
+@pytest.mark.parametrize('program', ['estimator', 'pulley_driver'])
+def test_help_says_what_it_takes_and_exits_with_0(program, arguments):
+    with Program.running(program, *arguments) as running:
+        assert running.wait() == 0
+        output = running.output()
+    assert output.startswith(f'usage: {program} ')
+    parameters = ESTIMATOR_PARAMETERS if program == 'estimator' else DRIVER_PARAMETERS
+    for parameter in parameters:
+        assert f'  {parameter.name} (' in output
+
+
+def test_the_version_is_said_in_every_place():
+    for arguments in (('--version',), ('--ros-args', '--version')):
+        with Program.running('estimator', *arguments) as program:
+            assert program.wait() == 0
+            assert program.output().splitlines() == [f'estimator {version("tendon_statics")}']
+
+
+@pytest.mark.parametrize('argument', ['--params-file', 'unit.yaml'])
 def test_an_argument_that_is_not_for_ros_is_refused(argument):
     with Program.running('estimator', argument) as program:
         assert program.wait() == 1

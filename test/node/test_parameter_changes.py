@@ -157,7 +157,7 @@ def test_load_design_takes_a_file_or_its_text_as_a_whole(tmp_path, running):
         ('mass: ', 'masss: ', 'design.masss is 0.0'),
         ('      mass: ', '#', 'design.mass is missing'),
         ('contact_end_angle: 2.0', 'contact_end_angle: 0.1', 'the end must exceed the start'),
-        ('/**:', '/other:', 'it is addressed to /other, so /estimator takes nothing from it'),
+        ('/**:', '/other:', 'it is addressed to /other in line 1, so /estimator takes nothing'),
         ('design:', 'unit:', 'there is no design in it'),
         ('friction', ': [', 'it is not valid YAML in line'),
         ('tension_stddev: 0.02', 'tension_stddev: -1.0', 'tension_stddev is -1.0'),
