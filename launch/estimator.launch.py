@@ -1,16 +1,21 @@
-"""Start one estimator; arguments: namespace, params_file, tensions, robot_state_publisher."""
+"""Start one estimator; `ros2 launch tendon_statics estimator.launch.py -s` has its arguments."""
 
 from pathlib import Path
 
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
-from launch_ros.actions import Node
 from launch_ros.utilities import make_namespace_absolute, prefix_namespace
 
-from tendon_statics.launching.actions import as_they_are, robot_state_publisher
+from tendon_statics.launching.actions import (
+    as_they_are,
+    declared_node_arguments,
+    own_node,
+    robot_state_publisher,
+)
 from tendon_statics.launching.base_turn import load_base_turn
 from tendon_statics.launching.joint_names import JointNames, load_joint_names
+from tendon_statics.launching.node_arguments import tension_remappings
 from tendon_statics.launching.unit_description import unit_description
 
 
@@ -28,8 +33,17 @@ def generate_launch_description():
             ),
             DeclareLaunchArgument(
                 'tensions',
-                default_value='tensions',
-                description='topic of std_msgs/Float64MultiArray [tension_l, tension_s] in N',
+                default_value='',
+                description='topic of tensions, of both cables; default: tensions',
+            ),
+            *(
+                DeclareLaunchArgument(
+                    f'tension_{cable}',
+                    default_value='',
+                    description=f'topic of the load cell of cable {cable}, with tension_source '
+                    f'wrench_pair; default: tension_{cable}',
+                )
+                for cable in ('l', 's')
             ),
             DeclareLaunchArgument(
                 'robot_state_publisher',
@@ -37,6 +51,7 @@ def generate_launch_description():
                 choices=['true', 'false'],
                 description='whether a robot_state_publisher shows the unit in RViz',
             ),
+            *declared_node_arguments(),
             OpaqueFunction(function=start_estimator),
         ]
     )
@@ -50,21 +65,20 @@ def start_estimator(context):
     full_namespace = make_namespace_absolute(prefix_namespace(outer, namespace))
     node = f'{full_namespace.rstrip("/")}/estimator'
     names = load_joint_names(params_file, node, default=JointNames())
+    remappings = tension_remappings(arguments, params_file, node)
     actions = []
     # First, since it may be missing, and launch leaves running what it has started by then.
     if arguments['robot_state_publisher'] == 'true':
         turn = load_base_turn(params_file, node)
         description = unit_description(params_file, names, base_turn=turn)
-        actions.append(robot_state_publisher(description, namespace))
+        actions.append(robot_state_publisher(arguments, description, namespace))
     actions.append(
-        Node(
-            package='tendon_statics',
-            executable='estimator',
-            name='estimator',
-            namespace=namespace,
+        own_node(
+            arguments,
+            'estimator',
+            namespace,
             parameters=[params_file, as_they_are(names._asdict())],
-            remappings=[('tensions', arguments['tensions'])],
-            output='screen',
+            remappings=remappings,
         )
     )
     return actions

@@ -103,6 +103,8 @@ def read_yaml_text(text: str, *, aliases: bool = True) -> object:
             return int(text) if is_integer else number
 
     Loader.add_constructor('tag:yaml.org,2002:map', Loader.construct_map)
+    # launch_ros writes every list of parameters so, and ROS passes over the tag.
+    Loader.add_constructor('tag:yaml.org,2002:python/tuple', Loader.construct_yaml_seq)
     Loader.add_implicit_resolver(_NUMBER_TAG, _NUMBER, list('-+.0123456789'))
     Loader.add_constructor(_NUMBER_TAG, Loader.construct_number)
     # Before all others: the first that fits counts.

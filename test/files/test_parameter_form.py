@@ -34,6 +34,9 @@ TAKEN = {
     'no parameters': '/**:\n  ros__parameters: {}\n',
     'wildcards': '/*/estimator:\n  ros__parameters: {a: 1}\n/**/driver:\n  ros__parameters: {}\n',
     'nested': 'left:\n  wrist:\n    estimator:\n      ros__parameters: {a: {b: [1, 2]}}\n',
+    'a list as launch_ros writes it': (
+        '/**:\n  ros__parameters:\n    a: !!python/tuple\n    - b\n    - c\n'
+    ),
     'kinds': '/**:\n  ros__parameters: {a: [u, v], b: [true], c: 1.5, d: "", e: []}\n',
 }
 
@@ -65,6 +68,12 @@ def test_what_ros_takes_is_taken(case, tmp_path):
     path.write_text(TAKEN[case])
     read_parameters(path)
     assert starts_ros(path)
+
+
+def test_a_list_of_launch_ros_is_a_list(tmp_path):
+    path = tmp_path / 'launch_params'
+    path.write_text(TAKEN['a list as launch_ros writes it'])
+    assert node_parameters(read_parameters(path), '/estimator') == {'a': ['b', 'c']}
 
 
 def test_a_file_for_others_is_refused_with_their_lines(tmp_path):
