@@ -186,7 +186,8 @@ def test_load_design_reads_nothing_that_is_no_file(tmp_path, running):
         ({'file': '/dev/zero'}, 'it is not a file'),
         ({'file': str(tmp_path)}, 'it is not a file'),
         ({'file': str(tmp_path / 'missing.yaml')}, 'it cannot be read: No such file'),
-        ({'text': 'x' * 10}, 'there is no design in it'),
+        ({'text': 'x' * 10}, 'it is no parameter file'),
+        ({'text': '/**: {ros__parameters: {a: 1}}'}, 'there is no design in it'),
     ):
         answer = running.load_design(**given)
         assert not answer.success

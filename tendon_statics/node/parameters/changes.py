@@ -74,6 +74,7 @@ class Changes:
         response: SetParametersAtomically.Response,
     ) -> SetParametersAtomically.Response:
         response.result = self.set_together(map(Parameter.from_parameter_msg, request.parameters))
+        self._say_refused([response.result])
         return response
 
     def _set_one_by_one(
@@ -96,8 +97,14 @@ class Changes:
         for result in results:
             if result.successful:
                 result.reason = self.misfit
+        self._say_refused(results)
         response.results = results
         return response
+
+    def _say_refused(self, results: Iterable[SetParametersResult]) -> None:
+        """Say it here too, since a client may pass over it, as ``ros2 param load`` does."""
+        for reason in dict.fromkeys(of.reason for of in results if not of.successful):
+            self._node.get_logger().warning(f'Not set: {reason}', throttle_duration_sec=1.0)
 
     def _set_one(self, parameter: Parameter) -> SetParametersResult:
         """Set what is not of the design; a value that is fixed may be set to what it is."""
