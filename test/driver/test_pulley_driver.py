@@ -282,7 +282,7 @@ def test_it_warns_of_parameters_that_nobody_has():
     [
         ('file:=/missing.csv', '/missing.csv: it cannot be read'),
         ('rate:=0.0', 'rate is 0.0, allowed is 0.01 to 20000 Hz'),
-        ('rate:=20001', 'rate is 20001, allowed is 0.01 to 20000 Hz'),
+        ('rate:=20001', 'rate is 20001.0, allowed is 0.01 to 20000 Hz'),
         ('rate:=fast', "rate is 'fast', which is not a number"),
         ('count:=-1', 'count is -1, allowed is 0 to'),
         ('count:=1.5', 'count is 1.5, which is not an integer'),
