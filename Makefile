@@ -34,9 +34,28 @@ MINUTES ?= 5
 soak: setup ## Stream faulty tensions at the estimator and balance the books (MINUTES=5)
 	@$(run) python tools/soak.py --minutes $(MINUTES)
 
+# How often to run the tests of the node beside busy loops.
+RUNS ?= 10
+
+.PHONY: steady
+steady: setup ## Run the tests of the node beside four busy loops, ten times (RUNS=10)
+	@$(run) python tools/steady.py --runs $(RUNS)
+
 .PHONY: measure-filter
 measure-filter: setup ## Measure the filter on random sessions, beside the tracker (ARGS='--sessions 48')
 	@$(run) cd tools && python -m measure_filter $(ARGS)
+
+.PHONY: measure-smoothing
+measure-smoothing: setup ## Measure how the filter smooths tensions, in its own errors
+	@$(run) cd tools && python -m measure_filter.smoothing $(ARGS)
+
+.PHONY: measure-consistency
+measure-consistency: setup ## Measure how well the filter finds a model that is wrong (ARGS='--sessions 4')
+	@$(run) python tools/measure_consistency.py $(ARGS)
+
+.PHONY: measure-arm
+measure-arm: setup ## Hold the arm against brute force on random arms (ARGS='--arms 200')
+	@$(run) python tools/measure_arm.py $(ARGS)
 
 .PHONY: bench
 bench: setup ## Measure the speed beside NumPy, C and a bare relay; tables, and build/bench.json

@@ -30,6 +30,7 @@ setup(
             'tqdm>=4.64',
             'zstandard>=0.22',
         ],
+        'archive': ['distributed>=2024.1', 'pyarrow>=15', 'tqdm>=4.64'],
         'matlab': ['pymatreader>=1.0'],
         'plot': ['matplotlib'],
         'test': ['hypothesis', 'mpmath', 'pytest', 'scipy>=1.11.4', 'xacro'],

@@ -17,10 +17,11 @@ BELOW = {
     'estimation': {'physics', 'tensions'},
     'files': {'physics', 'tensions', 'estimation'},
     'recordings': {'physics', 'tensions', 'estimation', 'files'},
+    'archive': {'physics', 'tensions', 'estimation', 'files', 'recordings'},
     'launching': {'physics', 'tensions', 'estimation', 'files', 'recordings'},
     'node': {'physics', 'tensions', 'estimation', 'files', 'recordings'},
     'driver': {'physics', 'tensions', 'estimation', 'files', 'recordings', 'node'},
-    'command_line': {'physics', 'tensions', 'estimation', 'files', 'recordings'},
+    'command_line': {'physics', 'tensions', 'estimation', 'files', 'recordings', 'archive'},
 }
 """Room → those from which it may import, as docs/architecture.md shows them"""
 

@@ -42,7 +42,8 @@ class EstimatorClient(Node):
     def __init__(self, context: Context, tensions: Mapping[str, type] = ARRAY) -> None:
         super().__init__('listener', context=context)
         self.regimes: list[str] = []
-        self.stale_regimes: list[str] = []
+        self.stale_regimes: list[int] = []
+        """How many other regimes came before each ``stale``"""
         self.bend_angles: list[float] = []
         self.joint_pressures: list[float] = []
         self.unit_poses: list[PoseWithCovarianceStamped] = []
@@ -81,7 +82,10 @@ class EstimatorClient(Node):
         """Keep ``stale`` apart, since no message causes it."""
 
         def keep(message: String) -> None:
-            (self.stale_regimes if message.data == 'stale' else self.regimes).append(message.data)
+            if message.data == 'stale':
+                self.stale_regimes.append(len(self.regimes))
+            else:
+                self.regimes.append(message.data)
 
         self.create_subscription(String, 'estimator/regime', keep, QoSProfile(depth=5000))
         return self.regimes

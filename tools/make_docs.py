@@ -27,11 +27,12 @@ from tendon_statics.command_line.main import main as run
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = (
     'README.md',
-    *('docs/calibration.md', 'docs/recordings.md', 'docs/model.md', 'docs/node.md'),
+    *('docs/arm.md', 'docs/calibration.md', 'docs/recordings.md', 'docs/model.md', 'docs/node.md'),
     *('docs/rig.md', 'docs/security.md', 'docs/validation.md'),
 )
 SESSION = 'config/recorded_session.mcap'
 FIGURES = {
+    'docs/arm.svg': 'arm plot config/arm.yaml config/arm_tensions.csv',
     'docs/calibration.svg': f'plot calibration {SESSION} --motion-step-deg 3 '
     '--bend-angle-stddev-deg 0.29 --pressure-stddev 8',
     'docs/hysteresis.svg': 'plot hysteresis',

@@ -14,12 +14,18 @@ from ..physics.calibration import LawComparison
 from ..physics.calibration.load_cells import AS_MEASURED
 from ..recordings.plausible_fit import objections
 from ..recordings.recording import Recording
-from .calibration_options import add_calibration_options, calibration_from, states_text
+from .calibration_options import (
+    add_calibration_options,
+    assumed_facts,
+    calibration_from,
+    states_text,
+)
 from .calibration_text import calibration_text
 from .options import (
     add_design_option,
     add_format_option,
     add_load_options,
+    design_name,
     print_json,
     say_written,
 )
@@ -51,7 +57,11 @@ def run(options: argparse.Namespace) -> int:
         )
     unit, recording = unit_and_recording(options)
     calibration, comparison = calibration_from(options, unit, recording)
-    read = [*reading_facts(recording, unit.design), *_cell_facts(calibration, unit, recording)]
+    read = [
+        *reading_facts(recording, unit, unit.design),
+        *assumed_facts(options, recording),
+        *_cell_facts(calibration, unit, recording),
+    ]
     text = calibration_text(calibration, recording.name, read, comparison)
     unwritten = _unwritten(calibration, comparison, recording)
     if options.output is not None and calibration.design is not None and not unwritten:
@@ -145,11 +155,10 @@ def _cell_facts(calibration: Calibration, unit: Unit, recording: Recording) -> F
 def _provenance(options: argparse.Namespace, recording: Recording) -> str:
     from importlib.metadata import version
 
-    start = Path(options.design).name if options.design else 'the preliminary design'
     lines = [
         f'Fitted on {date.today().isoformat()} by tendon_statics {version("tendon_statics")}, '
-        f'starting from {start}.',
-        f'States: {states_text(options)}.',
+        f'starting from {design_name(options)}.',
+        f'States: {states_text(options, recording)}.',
     ]
     if recording.damage:
         lines.append(f'Not all of the data could be read: {recording.damage_summary}')

@@ -5,23 +5,30 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import math
+from importlib.util import find_spec
 from typing import Any, NamedTuple
 
 from ..files.unit_file import Unit
 from ..physics import CONTACT_LAWS, Calibration, CalibrationError, DesignError, calibrate
 from ..physics.calibration import DEFAULT_FIT, SLIPPING, LawComparison, compare_laws
+from ..physics.calibration.parameters import checked_fit
+from ..physics.calibration.sessions import follow_each_other
 from ..recordings.errors import RecordingError
 from ..recordings.hints import hints
 from ..recordings.motion import mark_motion
 from ..recordings.recording import Recording
 from ..recordings.samples import usable
-from ..recordings.sessions import follow_each_other
 from .options import (
     UsageError,
     add_tension_stddev_option,
     tension_stddev_from,
 )
 from .recorded_load import recorded_load
+from .tables import Facts
+
+NEEDS_SCIPY = 'a calibration needs SciPy: install python3-scipy or pip install scipy'
+
+ASSUMED = 'all slipping, as is taken of a list without states and times'
 
 ALL_LAWS = 'all'
 """Of ``--contact-law``: compare them"""
@@ -101,11 +108,38 @@ def states_from(options: argparse.Namespace, recording: Recording) -> Recording:
     return recording
 
 
-def states_text(options: argparse.Namespace) -> str:
+def states_text(options: argparse.Namespace, recording: Recording) -> str:
     """Say where the states come from."""
     if options.motion_step_deg is not None:
         return f'motions of the angle by more than {options.motion_step_deg:g} deg'
-    return 'all slipping, as was said' if options.all_slipping else 'those of the recording'
+    if options.all_slipping:
+        return 'all slipping, as was said'
+    return 'those of the recording' if recording.state is not None else ASSUMED
+
+
+def assumed_facts(options: argparse.Namespace, recording: Recording) -> Facts:
+    """Say that samples are taken to slip without anybody's saying so, where they are."""
+    text = states_text(options, recording)
+    return [('states', text)] if text == ASSUMED else []
+
+
+def check_calibration_options(options: argparse.Namespace) -> None:
+    """Check what can be checked before there are data.
+
+    Raises
+    ------
+    CalibrationError
+        If a parameter is not known.
+    UsageError
+        If SciPy is missing.
+    """
+    checked_fit(_fit(options))
+    if find_spec('scipy') is None:
+        raise UsageError(NEEDS_SCIPY)
+
+
+def _fit(options: argparse.Namespace) -> list[str]:
+    return [name.strip() for name in options.fit.split(',') if name.strip()]
 
 
 class Fitted(NamedTuple):
@@ -131,7 +165,7 @@ def calibration_from(options: argparse.Namespace, unit: Unit, recording: Recordi
         asked: dict[str, Any] = {
             'design': unit.design,
             'data': states_from(options, usable(recording, unit.settings)),
-            'fit': [name.strip() for name in options.fit.split(',') if name.strip()],
+            'fit': _fit(options),
             'tension_stddev': tension_stddev_from(options, unit),
             'bend_angle_stddev': math.radians(options.bend_angle_stddev_deg),
             'pressure_stddev': options.pressure_stddev,
@@ -143,8 +177,9 @@ def calibration_from(options: argparse.Namespace, unit: Unit, recording: Recordi
         assert comparison.best.calibration is not None
         return Fitted(comparison.best.calibration, comparison)
     except ImportError:
-        raise UsageError(
-            'a calibration needs SciPy: install python3-scipy or pip install scipy'
-        ) from None
+        raise UsageError(NEEDS_SCIPY) from None
     except (CalibrationError, DesignError, RecordingError) as error:
-        raise type(error)('; '.join([str(error), *hints(recording, unit.design)])) from None
+        doubts = hints(recording, unit.design, unit.settings.plausibility)
+        if recording.damage:
+            doubts.append(f'not all of it could be read: {recording.damage_summary}')
+        raise type(error)('; '.join([str(error), *doubts])) from None

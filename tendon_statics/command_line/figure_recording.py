@@ -9,7 +9,7 @@ import numpy as np
 
 from ..estimation.regimes import INVALID, REGIME_COLOURS
 from ..physics import JointDesign
-from ..recordings.replay.estimates import Replay
+from ..recordings.replay.result import Replay
 from .figures import BLUE, GREY, VERMILION
 from .options import add_design_option, add_load_options, add_tension_stddev_option
 from .recording_options import (
@@ -95,6 +95,18 @@ def _draw_angles(axes: Axes, times: Any, replayed: Replay) -> None:
         axes.plot(
             times, np.degrees(recording.bend_angle), color=GREY, linewidth=4.0, label='measured'
         )
+    if replayed.interval is not None:
+        low, high = replayed.interval
+        axes.fill_between(
+            times,
+            np.degrees(low),
+            np.degrees(high),
+            color=VERMILION,
+            alpha=0.35,
+            linewidth=0.0,
+            label=f'{100.0 * replayed.confidence:.4g} % interval',
+            rasterized=len(recording) > MANY,
+        )
     angle = np.degrees(replayed.bend_angle)
     for where, colour, label in (
         (replayed.angle_assured, VERMILION, f'estimated ({replayed.estimation})'),
@@ -143,4 +155,5 @@ def _draw_regimes(axes: Axes, times: Any, replayed: Replay) -> None:
 
 
 def _legend(axes: Axes) -> None:
-    axes.legend(loc='lower right', bbox_to_anchor=(1.0, 0.97), ncols=3, frameon=False)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc='lower right', bbox_to_anchor=(1.0, 0.97), ncols=3, frameon=False)

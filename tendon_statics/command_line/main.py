@@ -20,6 +20,7 @@ VERBS = {
     'admissible': 'the bend angles at which friction can hold the unit',
     'calibrate': 'fit a design to a recorded session, with the uncertainty of every value',
     'replay': 'every sample of a recorded session through the model',
+    'archive': 'every recording below some folders through the model, into one data set',
     'report': 'a recorded session and its calibration as one HTML file',
     'tare': 'the biases of load cells from a recording of slack cables',
     'sweep': 'a map of the answers over both cable tensions, as a file',
@@ -27,6 +28,7 @@ VERBS = {
     'invert': 'the tensions at which the unit is about to slip at a bend angle',
     'paper': "the paper's published case: bisection, errata, identified values, signs, other laws",
     'design': 'check a design file and show what is in it',
+    'arm': 'units in series: where an arm is, and which of its joints slip',
     'plot': 'figures: Eq. (4), the unit, its hysteresis, maps, recordings, calibrations',
 }
 """Verb → what it does; the module of the same name has the rest."""

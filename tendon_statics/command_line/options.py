@@ -38,7 +38,17 @@ def add_design_option(parser: argparse.ArgumentParser) -> None:
 
 def unit_from(options: argparse.Namespace) -> Unit:
     """Return the unit that ``--design`` names, or one of the installed default design."""
-    return load_unit(options.design or default_design_path(), _full_name(options.node))
+    return load_unit(*design_file_and_node(options))
+
+
+def design_file_and_node(options: argparse.Namespace) -> tuple[Path, str]:
+    """Return the design file, and the full name of the estimator in it, empty if not said."""
+    return Path(options.design or default_design_path()), _full_name(options.node)
+
+
+def design_name(options: argparse.Namespace) -> str:
+    """Return what the design is called in texts."""
+    return Path(options.design).name if options.design else 'the preliminary design'
 
 
 def design_from(options: argparse.Namespace) -> JointDesign:
@@ -86,11 +96,17 @@ def add_tension_stddev_option(
     )
 
 
-def tension_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
-    """Return the option, or what the design file says, or the default, in N."""
+def tension_stddev_of(options: argparse.Namespace, unit: Unit) -> float | None:
+    """Return the option, or what the design file says, in N; None where neither does."""
     if options.tension_stddev is not None:
         return float(options.tension_stddev)
-    return float(unit.get('tension_stddev') or TENSION_STDDEV)
+    stddev = unit.get('tension_stddev')
+    return float(stddev) if stddev else None
+
+
+def tension_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
+    """Return the same, or the default where there is none."""
+    return tension_stddev_of(options, unit) or TENSION_STDDEV
 
 
 def add_load_options(parser: argparse.ArgumentParser) -> None:
@@ -100,6 +116,25 @@ def add_load_options(parser: argparse.ArgumentParser) -> None:
         'beside the cables, in the joint frame; default: gravity_direction of the design file, or '
         'upright, and nothing at the tip',
     )
+    add_tilt_options(group)
+    group.add_argument(
+        '--tip-force',
+        type=_finite,
+        nargs=2,
+        metavar=('X', 'Z'),
+        help='force on the unit in N, fixed in the joint frame',
+    )
+    group.add_argument(
+        '--tip-distance',
+        type=_finite,
+        metavar='M',
+        help="where it acts along the unit's axis, in m from the centre of the ball; default: "
+        'tip_distance of the design file',
+    )
+
+
+def add_tilt_options(group: argparse._ActionsContainer) -> None:
+    """Add ``--base-tilt-deg DEG`` and ``--gravity-direction X Y Z``, of which one is given."""
     direction = group.add_mutually_exclusive_group()
     direction.add_argument(
         '--base-tilt-deg',
@@ -114,20 +149,6 @@ def add_load_options(parser: argparse.ArgumentParser) -> None:
         metavar=('X', 'Y', 'Z'),
         help='or the direction of gravity, of any length: X towards cable s, Z along the unit at '
         'zero bend; what Y has is carried by the guides and left out',
-    )
-    group.add_argument(
-        '--tip-force',
-        type=_finite,
-        nargs=2,
-        metavar=('X', 'Z'),
-        help='force on the unit in N, fixed in the joint frame',
-    )
-    group.add_argument(
-        '--tip-distance',
-        type=_finite,
-        metavar='M',
-        help="where it acts along the unit's axis, in m from the centre of the ball; default: "
-        'tip_distance of the design file',
     )
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from ..files.cable_parameters import TENSION_SOURCES
 from ..files.unit_file import Unit
 from ..recordings.hints import hints
+from ..recordings.progress import Progress
 from ..recordings.reading.clock import CLOCKS
 from ..recordings.reading.load import ENDINGS, load_recording
 from ..recordings.reading.table_options import SEPARATORS, TableOptions
@@ -31,13 +32,18 @@ TIP_WRENCH = '/tip_wrench'
 
 
 def add_recording_options(parser: argparse.ArgumentParser) -> None:
-    """Add ``DATA`` and what says how it is read: where in a bag or table the numbers are."""
+    """Add ``DATA`` and what says how it is read."""
     parser.add_argument(
         'data',
         type=Path,
         metavar='DATA',
         help=f'recording, ending in {", ".join(ENDINGS)}, or the folder of a bag',
     )
+    add_reading_options(parser)
+
+
+def add_reading_options(parser: argparse.ArgumentParser) -> None:
+    """Add what says where in a bag or table the numbers are."""
     _add_bag_options(parser.add_argument_group('of a bag'))
     _add_table_options(parser.add_argument_group('of a table'))
 
@@ -151,6 +157,9 @@ def _add_table_options(table: argparse._ArgumentGroup) -> None:
         help='lines before the titles; default: %(default)s',
     )
     table.add_argument(
+        '--rate', type=float, metavar='HZ', help='rows per second of a table without times'
+    )
+    table.add_argument(
         '--encoding', metavar='NAME', help='of a text file, say latin-1; default: utf-8'
     )
 
@@ -161,7 +170,20 @@ def unit_and_recording(options: argparse.Namespace) -> tuple[Unit, Recording]:
     The tensions are in N and have faults as the estimator would find them with that file.
     """
     unit = unit_from(options)
-    topics = BagTopics(
+    return unit, recording_from(options, unit, options.data)
+
+
+def recording_from(
+    options: argparse.Namespace, unit: Unit, path: Path, progress: Progress = with_progress
+) -> Recording:
+    """Read a recording of a unit as the options say, with tensions in N."""
+    topics, table = topics_from(options, unit), table_from(options)
+    return of_unit(load_recording(path, topics, table, progress=progress), unit)
+
+
+def topics_from(options: argparse.Namespace, unit: Unit) -> BagTopics:
+    """Return where in a bag the numbers are, by the options or the unit's file."""
+    return BagTopics(
         tensions=options.tensions_topic,
         tension_source=options.tension_source or unit.get('tension_source'),
         cable_names=options.cable_names or tuple(unit.get('cable_names') or DEFAULTS.cable_names),
@@ -182,16 +204,19 @@ def unit_and_recording(options: argparse.Namespace) -> tuple[Unit, Recording]:
         tension_skew=unit.get('max_skew'),
         clock=options.clock,
     )
-    table = TableOptions(
+
+
+def table_from(options: argparse.Namespace) -> TableOptions:
+    """Return what a table looks like, by the options."""
+    return TableOptions(
         separator=options.separator,
         decimal=options.decimal,
         columns=options.columns,
         units=options.units,
         skip_rows=options.skip_rows,
         encoding=options.encoding,
+        rate=options.rate,
     )
-    recording = load_recording(options.data, topics, table, progress=with_progress)
-    return unit, of_unit(recording, unit)
 
 
 def report_damage(recording: Recording) -> int:
@@ -208,7 +233,7 @@ def report_damage(recording: Recording) -> int:
 
 def report_notes(unit: Unit, recording: Recording) -> None:
     """Name on stderr how it was read and what looks wrong, for verbs whose output is a table."""
-    for text in (*recording.notes, *hints(recording, unit.design)):
+    for text in (*recording.notes, *hints(recording, unit.design, unit.settings.plausibility)):
         print(f'tendon-statics: {recording.name}: {text}', file=sys.stderr)
 
 

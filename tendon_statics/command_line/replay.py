@@ -13,14 +13,17 @@ from ..physics import JointDesign
 from ..recordings.progress import Progress
 from ..recordings.recording import Recording
 from ..recordings.replay.bag_output import write_bag
-from ..recordings.replay.estimates import Replay, replay
+from ..recordings.replay.estimates import replay
+from ..recordings.replay.result import Replay
 from ..recordings.replay.table_output import write_table
 from .options import (
+    UsageError,
     add_design_option,
     add_load_options,
     add_tension_stddev_option,
     say_written,
     tension_stddev_from,
+    tension_stddev_of,
 )
 from .progress import with_progress
 from .recorded_load import recorded_load
@@ -53,8 +56,8 @@ def add_estimation_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '--estimation',
         choices=ESTIMATIONS,
-        help='each sample by itself, or with memory, as the node; default: that of the design '
-        f'file, or {ESTIMATIONS[0]}',
+        help='each sample by itself, or with memory: believing each sample (tracking), or taking '
+        f'it for noisy (filtering); default: that of the design file, or {ESTIMATIONS[0]}',
     )
     add_initial_bend_angle_option(parser)
 
@@ -65,7 +68,8 @@ def add_initial_bend_angle_option(parser: argparse.ArgumentParser) -> None:
         '--initial-bend-angle',
         type=float,
         metavar='RAD',
-        help='where a tracked unit is at first, in rad; default: that of the design file, or 0',
+        help='where a unit that is followed is at first, in rad; default: that of the design '
+        'file, or 0',
     )
 
 
@@ -88,7 +92,7 @@ def run(options: argparse.Namespace) -> int:
     replayed = replay_from(options, unit, unit.design, recording)
     if write is not None:
         write(options.output, replayed, with_progress)
-    print(fact_lines(replay_facts(replayed, unit.design)))
+    print(fact_lines(replay_facts(replayed, unit, unit.design)))
     if write is not None:
         say_written(options.output, options)
     return report_damage(recording)
@@ -99,17 +103,25 @@ def replay_from(
     unit: Unit,
     design: JointDesign,
     recording: Recording,
+    progress: Progress = with_progress,
 ) -> Replay:
     """Replay a recording as the options and the unit's file ask for, with a design of it."""
+    estimation = options.estimation or unit.get('estimation') or ESTIMATIONS[0]
+    if estimation == 'filtering' and tension_stddev_of(options, unit) is None:
+        raise UsageError(
+            'estimation is filtering, which needs the noise of the load cells: give '
+            '--tension-stddev, in N, or tension_stddev in the design file; tendon-statics tare '
+            'says how far readings of slack cables scatter'
+        )
     return replay(
         design,
         recording,
-        options.estimation or unit.get('estimation') or ESTIMATIONS[0],
+        estimation,
         settings=unit.settings,
         load=recorded_load(options, unit, recording),
         initial_bend_angle=initial_bend_angle_from(options, unit),
         tension_stddev=tension_stddev_from(options, unit),
-        progress=with_progress,
+        progress=progress,
     )
 
 

@@ -4,102 +4,119 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
+from ..estimation.estimate import Remark
+from ..files.unit_file import Unit
 from ..physics import JointDesign
 from ..recordings.hints import hints
 from ..recordings.recording import Recording
-from ..recordings.replay.estimates import VALID, Replay
+from ..recordings.replay.result import Replay
+from ..recordings.replay.summary import ReplaySummary, summary_of
 from .load_text import setting_facts
 from .tables import Facts
 
 
-def replay_facts(replay: Replay, design: JointDesign) -> Facts:
-    """What the model says of a recording."""
+def replay_facts(replay: Replay, unit: Unit, design: JointDesign) -> Facts:
+    """What the model says of a recording of a unit, with a design of it."""
+    summary = summary_of(replay)
+    invalid = invalid_text(summary)
     return [
-        *_recording_facts(replay.recording),
-        *reading_facts(replay.recording, design),
+        *_recording_facts(replay.recording, summary),
+        *reading_facts(replay.recording, unit, design),
         *setting_facts(design, replay.load),
         ('estimation', replay.estimation),
-        ('regimes', _regimes(replay)),
-        *_invalid_facts(replay),
-        *_angle_facts(replay),
+        ('regimes', regimes_text(summary)),
+        *_noise_facts(summary),
+        *([('invalid', invalid)] if invalid else []),
+        *_angle_facts(summary),
+        *_band_facts(summary, replay.confidence),
     ]
 
 
-def reading_facts(recording: Recording, design: JointDesign) -> Facts:
+def reading_facts(recording: Recording, unit: Unit, design: JointDesign) -> Facts:
     """How a recording was read, and what looks wrong with it."""
     return [
         *(('read', note) for note in recording.notes),
-        *(('warning', hint) for hint in hints(recording, design)),
+        *(('warning', hint) for hint in hints(recording, design, unit.settings.plausibility)),
     ]
 
 
-def _recording_facts(recording: Recording) -> Facts:
-    facts = [('recording', f'{recording.name}: {len(recording)} samples')]
-    if recording.time is None:
-        return facts
-    times = recording.time[np.isfinite(recording.time)]
-    untimed = len(recording) - len(times)
-    if untimed:
-        facts.append(('without time', f'{untimed} samples'))
+def _recording_facts(recording: Recording, summary: ReplaySummary) -> Facts:
+    facts = [('recording', f'{recording.name}: {summary.samples} samples')]
+    if summary.untimed:
+        facts.append(('without time', f'{summary.untimed} samples'))
     if recording.disorder:
         return [*facts, ('order', recording.disorder)]
-    steps = np.diff(times)
-    if len(steps) and np.median(steps) > 0.0:
+    if summary.pace is not None:
+        pace = summary.pace
         facts.append(
             (
                 'rate',
-                f'{1.0 / np.median(steps):.4g} Hz over {steps.sum():.4g} s; '
-                f'longest gap {steps.max():.3g} s',
+                f'{pace.rate:.4g} Hz over {pace.duration:.4g} s; '
+                f'longest gap {pace.longest_gap:.3g} s',
             )
         )
     return facts
 
 
-def _regimes(replay: Replay) -> str:
-    names, counts = np.unique(replay.regime, return_counts=True)
+def regimes_text(summary: ReplaySummary) -> str:
+    """Every regime with its samples and their share, the most frequent first."""
     return ', '.join(
-        f'{names[index]} {counts[index]} ({100.0 * counts[index] / len(replay.recording):.4g} %)'
-        for index in np.argsort(-counts, kind='stable')
+        f'{name} {count} ({100.0 * count / summary.samples:.4g} %)'
+        for name, count in summary.regimes.items()
     )
 
 
-def _invalid_facts(replay: Replay) -> Facts:
-    """Why samples are invalid, in the node's words."""
-    reasons, counts = np.unique(replay.validity[replay.validity != VALID], return_counts=True)
-    if not len(reasons):
+def invalid_text(summary: ReplaySummary) -> str:
+    """Why samples are invalid, in the node's words; empty if none is."""
+    return ', '.join(f'{reason} {count}' for reason, count in summary.invalid.items())
+
+
+def _noise_facts(summary: ReplaySummary) -> Facts:
+    """Whether believing each sample is safe."""
+    if not summary.noise_risks:
         return []
-    listed = ', '.join(
-        f'{reasons[index]} {counts[index]}' for index in np.argsort(-counts, kind='stable')
-    )
-    return [('invalid', listed)]
+    return [('warning', f'{Remark.NOISE.value} ({summary.noise_risks} of {summary.samples})')]
 
 
-def _angle_facts(replay: Replay) -> Facts:
-    known = np.isfinite(replay.bend_angle)
-    facts = [('bend angle', f'determined in {int(known.sum())} samples')]
-    unsure = int((known & ~replay.angle_assured).sum())
-    if unsure:
+def _band_facts(summary: ReplaySummary, confidence: float) -> Facts:
+    """How wide the intervals are, and how often the measured angle lies within."""
+    band = summary.band
+    if band is None:
+        return []
+    title = f'{100.0 * confidence:.4g} % interval'
+    facts = [(title, f'{_degrees(band.width)} wide in the mean')]
+    if band.within is not None:
+        facts.append(
+            (
+                'within it',
+                f'{100.0 * band.within:.4g} % of the measured angles, give or take two '
+                f'deviations of the sensor, {_degrees(band.sensor_spread)}',
+            )
+        )
+    return facts
+
+
+def _angle_facts(summary: ReplaySummary) -> Facts:
+    facts = [('bend angle', f'determined in {summary.determined} samples')]
+    if summary.unsure:
         facts.append(
             (
                 'not assured',
-                f'{unsure} of these angles: after a slack cable, a gap or the like the unit may '
-                'have moved',
+                f'{summary.unsure} of these angles: after a slack cable, a gap or the like the '
+                'unit may have moved',
             )
         )
-    measured = replay.recording.bend_angle
-    if replay.error is None or measured is None:
+    error = summary.error
+    if error is None:
         return facts
-    error = abs(replay.error[np.isfinite(replay.error)])
-    if not len(error):
+    if error.root_mean_square is None or error.median is None or error.largest is None:
         return [*facts, ('error', 'no sample has both an assured and a measured angle')]
     facts.append(
         (
             'error',
-            f'root mean square {_degrees(np.sqrt(np.mean(error**2)))}, '
-            f'median {_degrees(np.median(error))}, largest {_degrees(error.max())} '
-            f'against the measured angle, in {len(error)} samples',
+            f'root mean square {_degrees(error.root_mean_square)}, '
+            f'median {_degrees(error.median)}, largest {_degrees(error.largest)} '
+            f'against the measured angle, in {error.samples} samples',
         )
     )
     return facts

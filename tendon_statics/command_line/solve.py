@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 
-from ..physics import Equilibrium, Regime, solve
+from ..physics import DesignUncertainty, Equilibrium, Regime, solve
 from .load_text import DEFAULT_LAW, load_dict, setting_facts
 from .options import (
     add_design_option,
@@ -13,8 +13,9 @@ from .options import (
     add_load_options,
     add_tension_options,
     add_tension_stddev_option,
-    design_and_load,
+    load_from,
     print_json,
+    unit_from,
 )
 from .tables import fact_lines
 
@@ -37,7 +38,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Solve and print."""
-    design, load = design_and_load(options)
+    unit = unit_from(options)
+    design, load = unit.design, load_from(options, unit)
     equilibrium = solve(design, options.tension_l, options.tension_s, load)
     if options.format == 'json':
         print_json(
@@ -50,10 +52,12 @@ def run(options: argparse.Namespace) -> None:
             }
         )
     else:
-        print('\n'.join(_text(equilibrium, options.tension_stddev)))
+        print('\n'.join(_text(equilibrium, options.tension_stddev, unit.uncertainty)))
 
 
-def _text(equilibrium: Equilibrium, tension_stddev: float) -> list[str]:
+def _text(
+    equilibrium: Equilibrium, tension_stddev: float, uncertainty: DesignUncertainty | None
+) -> list[str]:
     lines = [f'regime        {equilibrium.regime}: {MEANING[equilibrium.regime]}']
     if settings := setting_facts(equilibrium.design, equilibrium.load):
         lines.append(fact_lines(settings))
@@ -75,12 +79,13 @@ def _text(equilibrium: Equilibrium, tension_stddev: float) -> list[str]:
                 else 'this one unstable: pushed past it, the unit slides on to the stop'
             )
         )
-    angle_stddev = equilibrium.bend_angle_stddev(tension_stddev)
-    pressure_stddev = equilibrium.pressure_stddev(tension_stddev)
+    angle_stddev = equilibrium.bend_angle_stddev(tension_stddev, uncertainty)
+    pressure_stddev = equilibrium.pressure_stddev(tension_stddev, uncertainty)
     if angle_stddev is not None and pressure_stddev is not None:
         lines.append(
             f'deviation     {math.degrees(angle_stddev):.2f} deg and {pressure_stddev:.2f} Pa '
             f'at {tension_stddev:g} N of noise on each tension'
+            + ('' if uncertainty is None else " and the design's tolerance")
         )
     gradient, pressure_gradient = equilibrium.bend_angle_gradient, equilibrium.pressure_gradient
     if gradient and pressure_gradient:

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..files.design_file import save_design
 from ..files.output_file import OutputError
+from ..files.parameter_edit import edit_parameters
 from ..files.unit_file import Unit
 from ..recordings.errors import RecordingError
 from ..recordings.recording import Recording
@@ -21,6 +21,7 @@ from .options import (
     add_design_option,
     add_format_option,
     add_tension_stddev_option,
+    design_file_and_node,
     print_json,
     say_written,
     tension_stddev_from,
@@ -50,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         '--output',
         type=Path,
         metavar='FILE.yaml',
-        help='write the design file there, with the new biases',
+        help='write the design file there, with the new biases and all else as it stands',
     )
     add_format_option(parser)
 
@@ -79,7 +80,8 @@ def run(options: argparse.Namespace) -> int:
     biases = {f'{of.cable}.bias': of.bias for of in tares}
     if options.output is not None:
         comment = f'Biases of {date.today().isoformat()}, from slack cables in {recording.name}.'
-        save_design(options.output, unit.design, comment, {**unit.parameters, **biases})
+        path, node = design_file_and_node(options)
+        edit_parameters(path, options.output, biases, node, comment)
     if options.format == 'json':
         print_json({**biases, 'cables': [{**of._asdict(), 'bias': of.bias} for of in tares]})
     else:

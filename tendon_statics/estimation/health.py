@@ -6,8 +6,8 @@ import time
 from collections import Counter
 from enum import IntEnum
 
-from ..physics import Equilibrium, Regime
 from ..tensions.reason import Reason
+from .estimate import Estimate, Remark
 
 
 class Level(IntEnum):
@@ -45,19 +45,18 @@ class Health:
         self._newest: float | None = None
         self._regime = ''
         self._rate: float | None = None
+        self._logged: set[Remark] = set()
+        self._to_log: list[Remark] = []
         self._forget_period()
 
     def _forget_period(self) -> None:
         self._solved_before = self.solved
         self._lost_before = self.lost
         self._dropped_before = self.dropped.copy()
-        self._held = 0
-        self._unassured = 0
-        self._inconsistent = 0
+        self._remarks: Counter[Remark] = Counter()
         self._solve_time = self._longest_solve = 0.0
         self._longest_lag = 0.0
         self._offset = 0.0
-        self._unassured_load = 0
         self._is_warned = False
         self._is_implausible = False
 
@@ -70,28 +69,29 @@ class Health:
             return Level.STALE
         return Level.WARN if self._is_warned else Level.OK
 
-    def note_result(
-        self, result: Equilibrium, solve_time: float, *, load_assured: bool = True
-    ) -> None:
-        """Count a pair that was solved, in so many seconds, with a load that is known or not."""
+    def note_estimate(self, estimate: Estimate, solve_time: float) -> None:
+        """Count a pair that was solved, in so many seconds."""
         self.solved += 1
         self.stale = False
         self._newest = time.monotonic()
-        self._regime = result.regime.value
+        self._regime = estimate.regime.value
         self._solve_time += solve_time
         self._longest_solve = max(self._longest_solve, solve_time)
-        if not result.is_tracked and result.regime is Regime.HELD:
-            self._held += 1
+        for remark in estimate.remarks:
+            self._remarks[remark] += 1
             self._is_warned = True
-        if not load_assured:
-            self._unassured_load += 1
-            self._is_warned = True
-        if not result.angle_assured:
-            self._unassured += 1
-            self._is_warned = True
-        if result.branch_consistent is False:
-            self._inconsistent += 1
-            self._is_warned = True
+            if remark.is_logged and remark not in self._logged:
+                self._logged.add(remark)
+                self._to_log.append(remark)
+
+    def count(self, remark: Remark) -> int:
+        """How many estimates of the period had a remark."""
+        return self._remarks[remark]
+
+    def take_what_is_to_log(self) -> list[Remark]:
+        """Return what is to be logged since the last call; each remark comes once."""
+        remarks, self._to_log = self._to_log, []
+        return remarks
 
     def note_lag(self, lag: float, most: float) -> None:
         """Note that the newest tensions waited `lag` seconds to be taken, `most` is still good."""
@@ -178,22 +178,9 @@ class Health:
                 f'stamps differ from the clock of the node by {self._offset:+.3g} s: clocks that '
                 'are not set alike, or messages that are old'
             )
-        if self._unassured_load:
-            findings.append(
-                'the load is not assured: what says where gravity points, or the force on the '
-                f'tip, does not come ({self._unassured_load} of {solved})'
-            )
-        if self._unassured:
-            findings.append(
-                'the unit may have moved unseen, so that its angle is not assured '
-                f'({self._unassured} of {solved})'
-            )
-        if self._held:
-            findings.append(
-                f'held, so that tensions do not determine the angle ({self._held} of {solved})'
-            )
-        if self._inconsistent:
-            findings.append(
-                f'forces ask for the other root of the model ({self._inconsistent} of {solved})'
-            )
+        findings += [
+            f'{remark.value} ({self._remarks[remark]} of {solved})'
+            for remark in Remark
+            if self._remarks[remark]
+        ]
         return findings

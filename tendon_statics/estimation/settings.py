@@ -8,7 +8,7 @@ from __future__ import annotations
 import dataclasses
 from functools import cached_property
 
-from ..physics import UPRIGHT, JointDesign, Load
+from ..physics import UPRIGHT, DesignUncertainty, JointDesign, Load
 from ..tensions.cable_scale import CableScale
 from ..tensions.watch import Plausibility
 
@@ -27,6 +27,16 @@ class Settings:
     design: JointDesign
     tension_stddev: float = 0.01
     """N"""
+    design_uncertainty: DesignUncertainty | None = None
+    """How well the design is known; None: it is taken as exact"""
+    confidence: float = 0.95
+    """Probability with which an interval holds the angle"""
+    filter_lag: float = 0.15
+    """s"""
+    tension_bias_stddev: float = 0.0
+    """N"""
+    measured_bend_angle_stddev: float = 0.01
+    """rad"""
     initial_bend_angle: float = 0.0
     """rad"""
     input_timeout: float = 0.5

@@ -6,44 +6,23 @@ of them. Times are in s on any one clock that only goes forward.
 
 from __future__ import annotations
 
-import copy
 import math
 import time
-from typing import NamedTuple
 
-from ..physics import Equilibrium, Load, StickSlipTracker, TensionError, solve
+from ..physics import TensionError
 from ..tensions.cable_scale import scaled, worse
 from ..tensions.reason import Fault, ReadingError, Reason
 from ..tensions.watch import PairWatch
+from .estimate import Estimate, KnownLoad, Sample
 from .health import Health
+from .methods import METHODS
 from .settings import Settings
-
-
-class KnownLoad(NamedTuple):
-    """What acts on the unit beside its cables, as far as it is known."""
-
-    load: Load
-    is_assured: bool = True
-    """Whether all of it is of the present"""
-    is_measured: bool = True
-    """False while a sensor that is to tell it has said nothing at all"""
-
-
-class Newest(NamedTuple):
-    """The newest valid tensions."""
-
-    tension_l: float
-    """N, 0 of a slack cable, as `tension_s`"""
-    tension_s: float
-    known: KnownLoad
-    time: float
-    """s"""
 
 
 class UnitEstimator:
     """Says of each pair of tensions where the unit is, and remembers what casts doubt on it.
 
-    With a tracker the unit may have moved unseen after whatever cannot vouch for it: a slack
+    A unit that is remembered may have moved unseen after whatever cannot vouch for it: a slack
     cable, a sample that is no pair of tensions, a gap in time, a load that is not known. Its
     angle is then not assured until a stop, or until somebody says where it is. Before the first
     tensions it is where it began.
@@ -51,28 +30,26 @@ class UnitEstimator:
     Parameters
     ----------
     estimation : str
-        ``equilibrium``: each pair by itself; ``tracking``: with a `StickSlipTracker`.
+        Of `METHODS`.
     health : Health
         Counts what becomes of the readings; its own, if none is given.
 
     Raises
     ------
     BendAngleError
-        If a tracked unit cannot begin at its initial angle.
+        If a unit that is remembered cannot begin at its initial angle.
     """
 
     def __init__(
         self, settings: Settings, estimation: str = 'equilibrium', health: Health | None = None
     ) -> None:
         self.health = Health() if health is None else health
-        self.newest: Newest | None = None
+        self.newest: Sample | None = None
         self.invalid_since_newest = 0
         self._settings = settings
         self._watch = PairWatch()
         self._told_at = -math.inf  # when somebody last said where the unit is
-        self._tracker: StickSlipTracker | None = None
-        if estimation == 'tracking':
-            self._tracker = StickSlipTracker(settings.design, settings.initial_bend_angle)
+        self._method = METHODS[estimation](settings)
 
     @property
     def settings(self) -> Settings:
@@ -80,25 +57,16 @@ class UnitEstimator:
         return self._settings
 
     @property
-    def is_tracking(self) -> bool:
+    def remembers(self) -> bool:
         """Whether it remembers where the unit was."""
-        return self._tracker is not None
+        return self._method.remembers
 
     def change_settings(self, settings: Settings) -> str:
         """Go on with other settings; return what is to be said of the unit, mostly nothing."""
         before, self._settings = self._settings, settings
         if settings.scales != before.scales:  # What was watched was in other newtons.
             self._watch = PairWatch()
-        if self._tracker is None or settings.design == before.design:
-            return ''
-        angle = self._tracker.bend_angle
-        self._tracker.change_design(settings.design)
-        if self._tracker.bend_angle == angle:
-            return ''
-        return (
-            f'The unit was at {angle:.6g} rad, beyond the new stop; it is now taken to be at '
-            f'{self._tracker.bend_angle:.6g} rad'
-        )
+        return self._method.change_settings(settings)
 
     # Readings
 
@@ -109,7 +77,7 @@ class UnitEstimator:
         known: KnownLoad,
         now: float,
         measured: float = math.nan,
-    ) -> Equilibrium:
+    ) -> Estimate:
         """Take what the load cells say, in their own units; the rest is as in `take_tensions`."""
         of_l, of_s = self._settings.scales
         tension_l, fault_l = scaled('tension_l', reading_l, of_l)
@@ -125,7 +93,7 @@ class UnitEstimator:
         known: KnownLoad,
         now: float,
         measured: float = math.nan,
-    ) -> Equilibrium:
+    ) -> Estimate:
         """Take a pair of tensions in N, within their limits; return where the unit is.
 
         Parameters
@@ -149,15 +117,16 @@ class UnitEstimator:
             tension_l, tension_s = self._watch.take(
                 (tension_l, tension_s), measured, settings.scales, settings.plausibility
             )
-            result = self._followed(tension_l, tension_s, known)
+            sample = Sample(tension_l, tension_s, known, now, measured)
+            estimate = self._followed(sample)
         except ReadingError as error:
             raise self._refused((error.reason, str(error))) from None
         except TensionError as error:
             raise self._refused((Reason.BELOW_WEIGHT, str(error))) from None
-        self.health.note_result(result, time.monotonic() - begin, load_assured=known.is_assured)
-        self.newest = Newest(tension_l, tension_s, known, now)
+        self.health.note_estimate(estimate, time.monotonic() - begin)
+        self.newest = sample
         self.invalid_since_newest = 0
-        return result
+        return estimate
 
     def drop(self, reason: Reason, text: str) -> None:
         """Count what gives no pair of tensions; if its content is at fault, the unit may move."""
@@ -177,23 +146,20 @@ class UnitEstimator:
             if not now - vouched <= self._settings.input_timeout:
                 self.lose_sight()
 
-    def _followed(self, tension_l: float, tension_s: float, known: KnownLoad) -> Equilibrium:
+    def _followed(self, sample: Sample) -> Estimate:
         """Work out where the unit goes; under a load that may be wrong nothing of it is sure."""
-        tracker = self._tracker
-        if tracker is None or known.is_assured:
-            return self._result(tracker, tension_l, tension_s, known.load)
-        if not known.is_measured:  # The unit stays where it began until the load is known.
-            tracker = copy.copy(tracker)
-        result = self._result(tracker, tension_l, tension_s, known.load)
-        tracker.doubt()
-        return result._replace(angle_assured=False)
+        method, known = self._method, sample.known
+        if method.remembers and not known.is_measured:
+            # The unit stays where it began until the load is known.
+            return method.imagine(sample)
+        estimate = method.update(sample)
+        if not known.is_assured:
+            method.doubt()
+        return estimate
 
-    def _result(
-        self, tracker: StickSlipTracker | None, tension_l: float, tension_s: float, load: Load
-    ) -> Equilibrium:
-        if tracker is None:
-            return solve(self._settings.design, tension_l, tension_s, load)
-        return tracker.update(tension_l, tension_s, load)
+    def take_committed(self) -> list[Estimate]:
+        """Return the estimates that will not be taken back, each once, where others may be."""
+        return self._method.take_committed()
 
     # Where the unit is, by other means
 
@@ -203,23 +169,32 @@ class UnitEstimator:
             self.doubt()
 
     def doubt(self) -> None:
-        """Take it that a tracked unit may have moved."""
-        if self._tracker is not None:
-            self._tracker.doubt()
+        """Take it that a unit that is remembered may have moved."""
+        self._method.doubt()
 
     def put(self, bend_angle: float, now: float) -> None:
-        """Put a tracked unit to an angle in rad that was measured.
+        """Put a unit that is remembered to an angle in rad, where it is for sure.
 
         Raises
         ------
         BendAngleError
             If it is not a number or beyond the stop; the unit then stays.
         """
-        if self._tracker is not None:
-            self._tracker.reset(bend_angle)
-            self._told_at = now
+        self._method.put(bend_angle)
+        self._told_at = now
 
-    def again(self, newest: Newest) -> Equilibrium:
+    def measure(self, bend_angle: float, now: float) -> None:
+        """Take an angle in rad that a sensor says.
+
+        Raises
+        ------
+        BendAngleError
+            As `put` does.
+        """
+        self._method.measure(bend_angle)
+        self._told_at = now
+
+    def again(self, newest: Sample) -> Estimate:
         """Work out the newest tensions again with the settings of now; the unit stays.
 
         Raises
@@ -227,9 +202,7 @@ class UnitEstimator:
         TensionError
             If they do not seat the joint of now.
         """
-        return self._result(
-            copy.copy(self._tracker), newest.tension_l, newest.tension_s, newest.known.load
-        )
+        return self._method.again(newest)
 
     # Staleness
 

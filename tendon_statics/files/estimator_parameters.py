@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 
+from ..estimation.methods import METHODS
 from ..estimation.settings import Settings
 from ..physics.design import DesignParameter, JointDesign, design_fields
 from ..tensions.watch import Plausibility
@@ -22,6 +23,7 @@ from .cable_parameters import (
 )
 from .parameter_kinds import (
     ChoiceParameter,
+    ListParameter,
     NumberParameter,
     Parameter,
     SwitchParameter,
@@ -29,7 +31,7 @@ from .parameter_kinds import (
     VectorParameter,
 )
 
-ESTIMATIONS = ('equilibrium', 'tracking')
+ESTIMATIONS = tuple(METHODS)
 GRAVITY_SOURCES = ('fixed', 'imu', 'pose')
 EXECUTORS = ('single', 'events')
 
@@ -48,9 +50,42 @@ NUMBERS = (
         unit='N',
     ),
     NumberParameter(
+        'confidence',
+        Settings.confidence,
+        'probability with which `bend_angle_low` and `bend_angle_high` in `~/estimate` enclose '
+        'the angle',
+        minimum=0.01,
+        maximum=0.999,
+    ),
+    NumberParameter(
+        'filter_lag',
+        Settings.filter_lag,
+        '`filtering`: time after which what was found is not taken back any more',
+        minimum=0.0,
+        maximum=10.0,
+        unit='s',
+    ),
+    NumberParameter(
+        'tension_bias_stddev',
+        Settings.tension_bias_stddev,
+        '`filtering`: standard deviation of the constant error of each tension, such as what a '
+        'tare leaves over',
+        minimum=0.0,
+        maximum=1000.0,
+        unit='N',
+    ),
+    NumberParameter(
+        'measured_bend_angle_stddev',
+        Settings.measured_bend_angle_stddev,
+        '`filtering`: standard deviation of what comes on `measured_bend_angle`',
+        minimum=1e-6,
+        maximum=1.0,
+        unit='rad',
+    ),
+    NumberParameter(
         'initial_bend_angle',
         Settings.initial_bend_angle,
-        'where a tracked unit is at the start and after `~/reset`, within its stops',
+        'where a unit that is remembered is at the start and after `~/reset`, within its stops',
         minimum=-0.5 * math.pi,
         maximum=0.5 * math.pi,
         unit='rad',
@@ -159,6 +194,24 @@ VECTORS = (
     ),
 )
 
+LISTS = (
+    ListParameter(
+        'design_uncertainty.parameters',
+        (),
+        "names of the design's numbers that are not exact, as `calibrate` writes them",
+    ),
+    ListParameter(
+        'design_uncertainty.covariance',
+        (),
+        'their covariance in SI units, row by row; deviations and probabilities then cover the '
+        'design too',
+        of_numbers=True,
+    ),
+)
+
+CHANGEABLE = (*NUMBERS, *VECTORS, *LISTS)
+"""All that may change while the node runs, beside the design's"""
+
 WIRING = (
     TENSION_SOURCE,
     CABLE_NAMES,
@@ -168,7 +221,8 @@ WIRING = (
         ESTIMATIONS[0],
         "`equilibrium`: each pair of tensions by itself, the paper's model; `tracking`: the node "
         'remembers where the unit was, and publishes the angle for every valid message but those '
-        'of slack cables',
+        'of slack cables; `filtering`: so it does, and takes each tension for a noisy reading, '
+        'with intervals and probabilities',
         choices=ESTIMATIONS,
     ),
     ChoiceParameter(
@@ -214,7 +268,7 @@ WIRING = (
 )
 """How the estimator is connected, which is fixed at the start"""
 
-ESTIMATOR_PARAMETERS: tuple[Parameter, ...] = (*WIRING, *NUMBERS, *VECTORS)
+ESTIMATOR_PARAMETERS: tuple[Parameter, ...] = (*WIRING, *CHANGEABLE)
 """All but the design's, see `design_table`"""
 
 

@@ -6,9 +6,12 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
+from typing import TypeVar
 
 from .parameter_form import ParameterFileError, check_form, in_line
 from .yaml_file import YamlFileError, read_yaml, read_yaml_text
+
+T = TypeVar('T')
 
 ESTIMATOR = 'estimator'
 """Name of the node that computes with a unit, in whatever namespace"""
@@ -112,18 +115,37 @@ def node_parameters(content: object, node: str = '') -> dict[str, object]:
         If the file is for other nodes only, names several estimators and it is not said which, or
         has a parameter twice in one block.
     """
-    blocks = list(parameter_blocks(content))
+    found: dict[str, object] = {}
+    for block in fitting_blocks([*parameter_blocks(content)], node, [*_addressed(content)]):
+        found |= dotted_parameters(block)
+    return found
+
+
+def fitting_blocks(
+    blocks: Sequence[tuple[str, T]], node: str = '', addressed: Sequence[str] = ()
+) -> list[T]:
+    """Of blocks with their node names those that a node takes, in the order of the file.
+
+    Parameters
+    ----------
+    node : str
+        Full name with the namespace; empty: the one estimator that the file names, or any.
+    addressed : sequence of str
+        How the error is to name the blocks, say with the lines in which they stand.
+
+    Raises
+    ------
+    ParameterFileError
+        As `node_parameters` does.
+    """
     node = node or _estimator_in([name for name, _ in blocks])
     fitting = [block for name, block in blocks if fits(name, node)]
     if blocks and not fitting:
         raise ParameterFileError(
-            f'it is addressed to {", ".join(_addressed(content))}, so {node} takes nothing from '
-            f'it: write {node} there, or /** for every node'
+            f'it is addressed to {", ".join(addressed or dict(blocks))}, so {node} takes nothing '
+            f'from it: write {node} there, or /** for every node'
         )
-    found: dict[str, object] = {}
-    for block in fitting:
-        found |= dotted_parameters(block)
-    return found
+    return fitting
 
 
 def node_parameter(content: object, node: str, parameter: str) -> object:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from typing import Any
+from collections.abc import Iterable
+from typing import Any, TypeGuard
 
 from ..physics.errors import TendonStaticsError
 
@@ -168,20 +169,37 @@ class VectorParameter(Parameter):
 
     def converted(self, value: Any) -> Any:
         """Return floats for whole numbers."""
-        if not hasattr(value, '__iter__') or isinstance(value, str):
-            return value
-        return [_as_float(number) for number in value]
+        return [_as_float(number) for number in value] if _is_list(value) else value
 
     def check(self, value: object) -> None:
         """Raise a `SettingError` unless it is a sequence of three finite numbers."""
-        # An array from ROS is no list; an empty one comes as None.
-        given = list(value) if hasattr(value, '__iter__') and not isinstance(value, str) else None
-        if (
-            given is None
-            or len(given) != 3
-            or not all(type(v) in (int, float) and math.isfinite(v) for v in given)
-        ):
+        given = list(value) if _is_list(value) else []
+        if len(given) != 3 or not all(map(_is_finite, given)):
             raise SettingError(f'{self.name} is {value!r}, but {self.allowed} are needed')
+
+
+@dataclasses.dataclass(frozen=True)
+class ListParameter(Parameter):
+    """Texts, or numbers if it says so, as many as it takes; none at first."""
+
+    default: tuple[()]
+    of_numbers: bool = dataclasses.field(default=False, kw_only=True)
+    is_fixed: bool = dataclasses.field(default=False, kw_only=True)
+
+    @property
+    def allowed(self) -> str:
+        """What is in it."""
+        return 'finite numbers' if self.of_numbers else 'names'
+
+    def converted(self, value: Any) -> Any:
+        """Return a list, with floats for whole numbers."""
+        return [_as_float(one) for one in value] if _is_list(value) else value
+
+    def check(self, value: object) -> None:
+        """Raise a `SettingError` unless it is a sequence of what is in it."""
+        fits = _is_finite if self.of_numbers else _is_text
+        if not _is_list(value) or not all(map(fits, value)):
+            raise SettingError(f'{self.name} is {value!r}, but a list of {self.allowed} is needed')
 
 
 _NUMBER = re.compile(r'[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?')
@@ -190,3 +208,16 @@ _NUMBER = re.compile(r'[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?
 def _as_float(value: Any) -> Any:
     """Return a float for an integer, and anything else as it is."""
     return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
+
+
+def _is_list(value: object) -> TypeGuard[Iterable[Any]]:
+    """Whether it has members, as an array from ROS does, too."""
+    return isinstance(value, Iterable) and not isinstance(value, (str, bytes))
+
+
+def _is_finite(value: object) -> bool:
+    return type(value) in (int, float) and math.isfinite(value)  # type: ignore[arg-type]
+
+
+def _is_text(value: object) -> bool:
+    return isinstance(value, str)

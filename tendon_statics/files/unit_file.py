@@ -12,7 +12,7 @@ from ..physics.design import JointDesign
 from ..physics.design_uncertainty import DesignUncertainty
 from ..physics.errors import DesignError
 from ..tensions.cable_scale import CableScale
-from .design_file import design_values, uncertainty_in
+from .design_file import design_values
 from .parameter_file import node_parameters, only_for, read_parameters
 from .parameter_form import ParameterFileError
 from .parameter_kinds import SettingError
@@ -26,8 +26,6 @@ class Unit:
     settings: Settings
     parameters: Mapping[str, Any] = dataclasses.field(default_factory=dict)
     """All that the file gives the estimator, by dotted name, as it stands there"""
-    uncertainty: DesignUncertainty | None = None
-    """How well the design is known, if the file says it"""
     addressed: str = ''
     """That the file is for estimators in other places than a plain one alone, if it is"""
 
@@ -35,6 +33,16 @@ class Unit:
     def design(self) -> JointDesign:
         """The unit's design."""
         return self.settings.design
+
+    @property
+    def uncertainty(self) -> DesignUncertainty | None:
+        """How well the design is known, if the file says it."""
+        return self.settings.design_uncertainty
+
+    def with_uncertainty(self, uncertainty: DesignUncertainty | None) -> Unit:
+        """Return the same with another design uncertainty, say of a design that was fitted."""
+        settings = dataclasses.replace(self.settings, design_uncertainty=uncertainty)
+        return dataclasses.replace(self, settings=settings)
 
     @property
     def cable_l(self) -> CableScale:
@@ -88,10 +96,7 @@ def load_unit(path: str | Path, node: str = '') -> Unit:
     try:
         addressed = '' if node else only_for(content)
         return Unit(
-            settings_from(parameters),
-            parameters,
-            uncertainty_in(parameters),
-            f'{path}: {addressed}' if addressed else '',
+            settings_from(parameters), parameters, f'{path}: {addressed}' if addressed else ''
         )
-    except (SettingError, DesignError) as error:
-        raise DesignError(f'{path}: {error}', key=getattr(error, 'key', '')) from None
+    except SettingError as error:
+        raise DesignError(f'{path}: {error}', key=getattr(error.__cause__, 'key', '')) from None

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from difflib import get_close_matches
 from typing import Any
 
+from ..estimation.methods import METHODS
 from ..estimation.settings import Settings
 from ..physics import Load
 from ..physics.admissible import check_bend_angle
@@ -14,7 +15,15 @@ from ..physics.design import JointDesign, design_fields
 from ..physics.errors import BendAngleError, DesignError, DesignMisfitError, LoadError
 from ..tensions.cable_scale import CableScale
 from ..tensions.watch import Plausibility
-from .estimator_parameters import DESIGN, ESTIMATOR_PARAMETERS, NUMBERS, VECTORS, known_names
+from .design_file import check_uncertainty, uncertainty_in
+from .estimator_parameters import (
+    DESIGN,
+    ESTIMATIONS,
+    ESTIMATOR_PARAMETERS,
+    NUMBERS,
+    VECTORS,
+    known_names,
+)
 from .parameter_kinds import MisfitError, Parameter, SettingError
 
 GRAVITY_DIRECTION = 'gravity_direction'
@@ -48,7 +57,11 @@ def check_parameters(values: Mapping[str, object]) -> None:
             try:
                 field.check(values[DESIGN + field.name])
             except DesignError as error:
-                raise SettingError(f'{DESIGN}{error}') from None
+                raise _refusal(error, DESIGN) from error
+    try:
+        check_uncertainty(values)
+    except DesignError as error:
+        raise _refusal(error) from error
     if GRAVITY_DIRECTION in values:
         _check_direction(values[GRAVITY_DIRECTION])
 
@@ -75,8 +88,11 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
             }
         )
     except DesignError as error:
-        kind = MisfitError if isinstance(error, DesignMisfitError) else SettingError
-        raise kind(f'{DESIGN if error.key else ""}{error}') from None
+        raise _refusal(error, DESIGN if error.key else '') from error
+    try:
+        uncertainty = uncertainty_in(values)
+    except DesignError as error:
+        raise _refusal(error) from error
 
     def given(parameter: Parameter) -> Any:
         return values.get(parameter.name, parameter.default)
@@ -93,6 +109,7 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
     try:
         settings = Settings(
             design=design,
+            design_uncertainty=uncertainty,
             cable_l=_cable_scale('cable_l', number),
             cable_s=_cable_scale('cable_s', number),
             plausibility=Plausibility(
@@ -106,7 +123,15 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
         check_bend_angle(design, settings.initial_bend_angle)
     except BendAngleError as error:
         raise MisfitError(f'initial_{error}') from None
+    refusal = METHODS[values.get('estimation', ESTIMATIONS[0])].refusal(settings)
+    if refusal:
+        raise SettingError(refusal)
     return settings
+
+
+def _refusal(error: DesignError, prefix: str = '') -> SettingError:
+    kind = MisfitError if isinstance(error, DesignMisfitError) else SettingError
+    return kind(f'{prefix}{error}')
 
 
 def _check_direction(direction: Any) -> None:

@@ -113,6 +113,8 @@ class Reports:
 
         So a regime that changes with every message does not flood ``/diagnostics``.
         """
+        for remark in self._node.health.take_what_is_to_log():
+            self._node.get_logger().warning(f'{remark.value[0].upper()}{remark.value[1:]}')
         if recovered or self._node.health.level > self._reported_level:
             self.report()
 

@@ -11,10 +11,12 @@ from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackRet
 from rclpy.time import Time as ClockTime
 from std_msgs.msg import Float64
 
+from ..estimation.estimate import KnownLoad
 from ..estimation.health import Health
+from ..estimation.methods import METHODS
 from ..estimation.regimes import INVALID
 from ..estimation.settings import Settings
-from ..estimation.unit_estimator import KnownLoad, UnitEstimator
+from ..estimation.unit_estimator import UnitEstimator
 from ..files.parameter_kinds import SettingError
 from ..physics import BendAngleError
 from ..tensions.reason import ReadingError, Reason
@@ -65,7 +67,7 @@ class Estimator(LifecycleNode):
         self._load = LoadInputs(self._wiring, lambda: self.unit.settings, self._warn_of_load)
         for topic, of_topic in self._load.inputs.items():
             self._inputs.add(topic, *of_topic)
-        if self._wiring.estimation == 'tracking':
+        if METHODS[self._wiring.estimation].remembers:
             self._inputs.add('measured_bend_angle', Float64, self._on_measured_bend_angle)
         self._answers = Services(self)
         self._reports = Reports(self, self._outputs, self._inputs, self._load, left_out)
@@ -206,16 +208,19 @@ class Estimator(LifecycleNode):
             self.health.note_offset(offset, unit.settings.max_clock_offset)
         was_stale = self.health.stale
         try:
-            result = unit.take(reading.value_l, reading.value_s, known, time.monotonic(), measured)
+            estimate = unit.take(
+                reading.value_l, reading.value_s, known, time.monotonic(), measured
+            )
         except ReadingError as error:
             self._say_dropped(error.reason, str(error))
             return
-        self._outputs.publish(
-            result,
-            unit.settings,
-            lambda: reading.stamp or self._time_of(arrival),
-            load_assured=known.is_assured,
-        )
+
+        def stamp() -> Time:
+            return reading.stamp or self._time_of(arrival)
+
+        self._outputs.publish(estimate, stamp)
+        if self._outputs.committed is not None:
+            self._outputs.committed.publish(unit, measured, stamp)
         self.health.note_lag(lag, unit.settings.input_timeout)
         self._source.tighten()
         self._watchdog.note_valid(was_stale=was_stale)
@@ -244,7 +249,7 @@ class Estimator(LifecycleNode):
 
     def _on_measured_bend_angle(self, message: Float64) -> None:
         try:
-            self.unit.put(message.data, time.monotonic())
+            self.unit.measure(message.data, time.monotonic())
         except BendAngleError as error:
             self.rejected_corrections += 1
             self.get_logger().warning(

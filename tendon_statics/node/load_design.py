@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from rclpy.parameter import Parameter
 
 from ..files.design_file import design_values
-from ..files.estimator_parameters import DESIGN, ESTIMATOR_PARAMETERS
+from ..files.estimator_parameters import DESIGN, ESTIMATOR_PARAMETERS, LISTS
 from ..files.parameter_file import (
     node_parameters,
     parameters_in,
@@ -77,7 +77,7 @@ def _content(file: str, text: str) -> object:
 
 
 def _whole(parameters: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what is to be set: the whole design, and what else may change.
+    """Return what is to be set: the whole design, how well it is known, and what else may change.
 
     Raises
     ------
@@ -96,6 +96,8 @@ def _whole(parameters: Mapping[str, Any]) -> dict[str, Any]:
         for parameter in ESTIMATOR_PARAMETERS
         if parameter.name in parameters and not parameter.is_fixed
     }
+    # Without a word on how well this design is known, none on the one before may stay.
+    others |= {of.name: list(of.default) for of in LISTS if of.name not in parameters}
     return {DESIGN + name: value for name, value in asdict(design).items()} | others
 
 

@@ -106,7 +106,7 @@ class Services:
         except (TensionError, LoadError) as error:
             return messages.refuse_solve(response, str(error))
         return messages.fill_solve_response(
-            response, result, settings.tension_stddev, load_assured=known.is_assured
+            response, result, settings, load_assured=known.is_assured
         )
 
     def _invert(
@@ -127,17 +127,14 @@ class Services:
                 reason += f'; the newest message was invalid: {health.last_drop}'
             return messages.refuse(response, reason)
         try:
-            result = unit.again(newest)
+            estimate = unit.again(newest)
         except TensionError as error:  # valid for the design of then, not for that of now
             return messages.refuse(response, str(error))
-        stddev = unit.settings.tension_stddev
         load = newest.known.load
         response.success = True
         response.message = json.dumps(
             {
-                **result.as_dict(),
-                'bend_angle_stddev': result.bend_angle_stddev(stddev),
-                'pressure_stddev': result.pressure_stddev(stddev),
+                **estimate.as_dict(),
                 'contact_law': unit.settings.design.contact_law,
                 'gravity_direction': load.gravity_direction,
                 'tip_force': load.tip_force,
@@ -153,7 +150,7 @@ class Services:
 
     def _reset(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         unit = self._node.unit
-        if not unit.is_tracking:
+        if not unit.remembers:
             return messages.refuse(
                 response, 'estimation is equilibrium, which remembers nothing to reset'
             )

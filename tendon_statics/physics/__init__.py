@@ -14,6 +14,7 @@ from .design import (
 )
 from .design_uncertainty import DesignUncertainty
 from .errors import (
+    ArmError,
     BendAngleError,
     CalibrationError,
     DesignError,
@@ -34,6 +35,18 @@ from .tracker import StickSlipTracker
 from .uncertainty import SlipAngleDistribution, slip_angle_distribution
 
 if TYPE_CHECKING:
+    from .arm import (
+        Arm,
+        ArmState,
+        ArmTracker,
+        ArmUnit,
+        Cable,
+        JointSlip,
+        TipPose,
+        arm_margins,
+        arm_slip_order,
+        arm_tensions_for,
+    )
     from .batch import EquilibriumBatch, solve_batch
     from .calibration import Calibration, LawComparison, calibrate, compare_laws
     from .filter import FilterState, StickSlipFilter
@@ -41,7 +54,13 @@ if TYPE_CHECKING:
 __all__ = [
     'CONTACT_LAWS',
     'UPRIGHT',
+    'Arm',
+    'ArmError',
+    'ArmState',
+    'ArmTracker',
+    'ArmUnit',
     'BendAngleError',
+    'Cable',
     'Calibration',
     'CalibrationError',
     'ContactCoefficients',
@@ -56,6 +75,7 @@ __all__ = [
     'FilterState',
     'ForceRemainder',
     'JointDesign',
+    'JointSlip',
     'LawComparison',
     'Load',
     'LoadError',
@@ -67,8 +87,12 @@ __all__ = [
     'TensionError',
     'TensionGradient',
     'Tensions',
+    'TipPose',
     'UnreachableError',
     'admissible_angles',
+    'arm_margins',
+    'arm_slip_order',
+    'arm_tensions_for',
     'calibrate',
     'compare_laws',
     'contact_coefficients',
@@ -84,11 +108,21 @@ __all__ = [
 
 
 _NEEDING_NUMPY = {
+    'Arm': '.arm',
+    'ArmState': '.arm',
+    'ArmTracker': '.arm',
+    'ArmUnit': '.arm',
+    'Cable': '.arm',
     'Calibration': '.calibration',
     'EquilibriumBatch': '.batch',
     'FilterState': '.filter',
+    'JointSlip': '.arm',
     'LawComparison': '.calibration',
     'StickSlipFilter': '.filter',
+    'TipPose': '.arm',
+    'arm_margins': '.arm',
+    'arm_slip_order': '.arm',
+    'arm_tensions_for': '.arm',
     'calibrate': '.calibration',
     'compare_laws': '.calibration',
     'solve_batch': '.batch',

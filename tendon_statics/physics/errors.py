@@ -29,6 +29,21 @@ class DesignMisfitError(DesignError):
     """Values of a design that do not fit together, though each is allowed by itself."""
 
 
+class ArmError(TendonStaticsError, ValueError):
+    """An arm that cannot be used, or what is asked of one.
+
+    Attributes
+    ----------
+    key : str
+        Where in the arm the fault is, say ``units[2].length``, counted from 1; empty if it is
+        nowhere in particular.
+    """
+
+    def __init__(self, message: str, *, key: str = '') -> None:
+        super().__init__(message)
+        self.key = key
+
+
 class LoadError(TendonStaticsError, ValueError):
     """A dead load that the model does not take."""
 

@@ -17,10 +17,13 @@ import numbers
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .design import JointDesign
 from .errors import LoadError
+
+if TYPE_CHECKING:
+    from .stacked_design import StackedDesign
 
 MAX_FORCE = 1e9
 """Largest force at the tip in N that is taken; far above any instrument, far below overflow."""
@@ -99,18 +102,9 @@ class Load:
         force_x, force_z = self.tip_force
         return Load((-x, y, z), (-force_x, force_z), self.tip_distance)
 
-    def on(self, design: JointDesign) -> DeadLoad:
+    def on(self, design: JointDesign | StackedDesign) -> DeadLoad:
         """Return the forces and moments that it means for one unit."""
-        weight, lever = design.weight, design.com_distance
-        x, _, z = self.gravity_direction
-        force_x, force_z = self.tip_force
-        weight_x, weight_z = weight * x, weight * z
-        return DeadLoad(
-            weight_x + force_x,
-            weight_z + force_z,
-            lever * weight_x + self.tip_distance * force_x,
-            lever * weight_z + self.tip_distance * force_z,
-        )
+        return DeadLoad.of(design, self.gravity_direction, self.tip_force, self.tip_distance)
 
 
 class DeadLoad(NamedTuple):
@@ -127,6 +121,34 @@ class DeadLoad(NamedTuple):
     """Q_x in N·m"""
     moment_z: Any
     """Q_z in N·m"""
+
+    @classmethod
+    def of(
+        cls,
+        design: JointDesign | StackedDesign,
+        gravity_direction: tuple[float, float, float],
+        force: tuple[float, float],
+        distance: float,
+    ) -> DeadLoad:
+        """Return it for one unit.
+
+        Parameters
+        ----------
+        gravity_direction : tuple of float
+            Of length 1.
+        force : tuple of float
+            Force (x, z) in N at `distance` in m along the unit's axis.
+        """
+        weight, lever = design.weight, design.com_distance
+        x, _, z = gravity_direction
+        force_x, force_z = force
+        weight_x, weight_z = weight * x, weight * z
+        return cls(
+            weight_x + force_x,
+            weight_z + force_z,
+            lever * weight_x + distance * force_x,
+            lever * weight_z + distance * force_z,
+        )
 
     @property
     def size(self) -> Any:

@@ -15,13 +15,17 @@ law's.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .contact.law import ContactLaw, State
+from .contact.law import ContactLaw, State, map_arrays
 from .contact.numbers import FLOATS, Numbers, wave_bounds
 from .design import JointDesign
 from .load import DeadLoad, Load
 from .roots import Bracket, brackets
+
+if TYPE_CHECKING:
+    from .stacked_design import StackedDesign
 
 NEGLIGIBLE_LOAD = 1e-9
 """Share of the tensions below which what turns with the unit moves g too little to determine an
@@ -73,20 +77,20 @@ class LoadedJoint(NamedTuple):
     """|P| in N"""
     tilt: tuple[Any, Any]
     """cos ψ and sin ψ at zero bend"""
-    lever: float
+    lever: Any
     """(r + δ) / r"""
     moment_x: Any
     """Q_x / r in N"""
     moment_z: Any
     """Q_z / r in N"""
-    stiffness: float
+    stiffness: Any
     """k / r in N"""
     turning: Any
     """Size in N of all that turns with the unit"""
 
     @classmethod
-    def of(cls, design: JointDesign, dead: DeadLoad) -> LoadedJoint:
-        """Return a joint under a dead load of floats, or of arrays."""
+    def of(cls, design: JointDesign | StackedDesign, dead: DeadLoad) -> LoadedJoint:
+        """Return a joint under a dead load; of floats, or of arrays where one of the two is."""
         radius, friction = design.ball_radius, design.friction_coefficient
         size = dead.size
         nothing = size == 0.0  # has no direction; along the axis is as good as any
@@ -177,30 +181,24 @@ class Slip:
 
     def part(self, rows: Any) -> Slip:
         """Return the slip functions of some of the pairs that there are in arrays."""
-
-        def part(values: Any) -> Any:
-            return values[rows] if getattr(values, 'ndim', 0) else values
-
-        joint = self.joint
-        if getattr(joint.size, 'ndim', 0):
-            law, size, tilt, lever, moment_x, moment_z, stiffness, turning = joint
-            joint = LoadedJoint(
-                *(law, part(size), (part(tilt[0]), part(tilt[1])), lever),
-                *(part(moment_x), part(moment_z), stiffness, part(turning)),
-            )
-        left, right = map(part, self._tensions)
-        return Slip(joint, part(self.excess), left, right, part(self.side), self.numbers)
+        return self._each(lambda values: values[rows], self.numbers)
 
     def one(self, index: int) -> Slip:
         """Return the slip function of one of the pairs that there are in arrays, of floats."""
-        part = self.part(index)
-        law, size, tilt, lever, moment_x, moment_z, stiffness, turning = part.joint
-        joint = LoadedJoint(
-            *(law, float(size), (float(tilt[0]), float(tilt[1])), lever),
-            *(float(moment_x), float(moment_z), stiffness, float(turning)),
+        return self._each(lambda values: float(values[index]), FLOATS)
+
+    def _each(self, change: Callable[[Any], Any], numbers: Numbers) -> Slip:
+        """Return the same with a function applied to each array."""
+        # All of a joint is arrays, or none of it, so that this tells.
+        joint = self.joint
+        if getattr(joint.size, 'ndim', 0):
+            joint = map_arrays(joint, change)
+        left, right = self._tensions
+        return Slip(
+            *(joint, change(self.excess), change(left), change(right)),
+            map_arrays(self.side, change),
+            numbers,
         )
-        left, right = map(float, part._tensions)
-        return Slip(joint, float(part.excess), left, right, float(part.side))
 
     def facing(self, sign: Any) -> Slip:
         """Return the slip function towards the other side where `sign` is −1, the same for 1."""

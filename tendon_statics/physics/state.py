@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from enum import Enum
 from typing import Any, NamedTuple
 
 from .admissible import Interval, angles_held
 from .design import JointDesign
 from .design_gradients import Derivatives, SlipAnswer, answer_derivatives
+from .design_uncertainty import DesignUncertainty
 from .forces import ContactForces, ForceRemainder, contact_forces
 from .gradients import (
     TensionGradient,
@@ -182,28 +184,45 @@ class Equilibrium(_Fields):
 
         Of `solve`; None also where they are infinite. At the stop only the stop moves the angle.
         """
-        found = self._derivatives()
+        found = self._derivatives
         return None if found is None else found[0]
 
     @property
     def pressure_derivatives(self) -> Derivatives | None:
         """∂p/∂x in Pa per SI unit, likewise."""
-        found = self._derivatives()
+        found = self._derivatives
         return None if found is None else found[1]
 
-    def bend_angle_stddev(self, tension_stddev: float) -> float | None:
+    def bend_angle_stddev(
+        self, tension_stddev: float, design_covariance: DesignUncertainty | None = None
+    ) -> float | None:
         """Return the standard deviation of the angle in rad, to first order, None if not known.
 
         Parameters
         ----------
         tension_stddev : float
             Standard deviation of each tension in N, the two independent.
+        design_covariance : DesignUncertainty, optional
+            Of parameters of the design; without it, and of a tracker, the design is exact.
         """
-        return stddev_of(self.bend_angle_gradient, tension_stddev)
+        found = stddev_of(self.bend_angle_gradient, tension_stddev)
+        return self._with_design(found, design_covariance, 0)
 
-    def pressure_stddev(self, tension_stddev: float) -> float | None:
+    def pressure_stddev(
+        self, tension_stddev: float, design_covariance: DesignUncertainty | None = None
+    ) -> float | None:
         """Return the standard deviation of the pressure in Pa in the same way."""
-        return stddev_of(self.pressure_gradient, tension_stddev)
+        found = stddev_of(self.pressure_gradient, tension_stddev)
+        return self._with_design(found, design_covariance, 1)
+
+    def _with_design(
+        self, stddev: float | None, covariance: DesignUncertainty | None, which: int
+    ) -> float | None:
+        """Add what the design contributes to a deviation, of angle or pressure."""
+        if covariance is None or self.is_tracked or stddev is None:
+            return stddev
+        found = self._derivatives
+        return found and math.sqrt(stddev * stddev + covariance.variance(found[which]))
 
     def as_dict(self) -> dict[str, Any]:
         """Return all but design and load by name, ready for JSON: nested as dicts."""
@@ -313,6 +332,7 @@ class Equilibrium(_Fields):
             finite(pressure_by_tension),
         )
 
+    @kept
     def _derivatives(self) -> tuple[Derivatives, Derivatives] | None:
         """By tilt and design. A tracked unit has been brought here by tensions of the past."""
         if self.is_tracked or self.bend_angle is None:

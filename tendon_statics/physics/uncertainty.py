@@ -22,10 +22,11 @@ from statistics import NormalDist
 from .design import JointDesign
 from .design_gradients import excess_by_design
 from .design_uncertainty import DesignUncertainty
+from .errors import TensionError
 from .gradients import slip_by_tensions
 from .load import UPRIGHT, Load
-from .roots import Probe, refine
 from .slip import Slip
+from .solver import solve
 from .state import Regime
 from .tensions import Tensions, check_tensions, taut_slip
 
@@ -34,6 +35,12 @@ DRAWS = 8192
 
 FAR = 5.0
 """Standard deviations that count as never"""
+
+ANGLE_TOLERANCE = 1e-9
+"""rad, of a quantile"""
+
+STEPS = 60
+"""To a quantile at the most, should each but halve the range; five or so are taken"""
 
 _NORMAL = NormalDist()
 
@@ -130,17 +137,24 @@ class SlipAngleDistribution:
         Of ``equilibrium``, ``held``, ``driven_to_stop`` and, if noise can make one, ``slack``.
         What it would refuse is in none of them.
         """
-        regime = Regime(regime)
+        return self.probabilities[Regime(regime)]
+
+    @cached_property
+    def probabilities(self) -> dict[Regime, float]:
+        """The probability of each regime."""
         if not self.is_closed_form:
-            return self._drawn.probability(regime)
-        at_zero, at_stop = self._before(0.0), self._before(self._stop)
-        first, last = (
-            (Regime.DRIVEN_TO_STOP, Regime.HELD)
-            if self._direction > 0.0
-            else (Regime.HELD, Regime.DRIVEN_TO_STOP)
-        )
-        found = {first: at_zero, last: 1.0 - at_stop, Regime.EQUILIBRIUM: at_stop - at_zero}
-        return max(found.get(regime, 0.0), 0.0)
+            return {regime: self._drawn.probability(regime) for regime in Regime}
+        at_zero, at_stop = self._at_ends
+        driven, held = at_zero, 1.0 - at_stop
+        if self._direction < 0.0:
+            driven, held = held, driven
+        return {
+            Regime.EQUILIBRIUM: max(at_stop - at_zero, 0.0),
+            Regime.HELD: held,
+            Regime.SLIPPING: 0.0,
+            Regime.DRIVEN_TO_STOP: driven,
+            Regime.SLACK: 0.0,
+        }
 
     def cdf(self, angle: float) -> float:
         """Return the probability that the slip angle lies between 0, or before, and an angle.
@@ -172,13 +186,28 @@ class SlipAngleDistribution:
             raise ValueError(f'q is {q!r}, allowed is between 0 and 1')
         if not self.is_closed_form:
             return self._drawn.quantile(q)
-        score = _Score(self, _NORMAL.inv_cdf(q))
-        ends = score.probe(0.0), score.probe(self._stop)
-        if not ends[0][1] < 0.0 <= ends[1][1]:
+        score = _NORMAL.inv_cdf(q)
+        at_zero, at_stop = self._ends
+        if not at_zero < score <= at_stop:
             return None
-        root, _ = refine(score, ends)
-        ahead: float = root[0]
-        return self._slip.side * ahead  # type: ignore[no-any-return]
+        side: float = self._slip.side
+        return side * self._angle_of(score)
+
+    def _angle_of(self, score: float) -> float:
+        """Angle ahead in rad at which the score reaches a value between those at its ends."""
+        (low, at_low), (high, at_high) = (0.0, self._ends[0]), (self._stop, self._ends[1])
+        before, ahead = (high, at_high), low + (score - at_low) * (high - low) / (at_high - at_low)
+        for _ in range(STEPS):
+            value = self._score(ahead)
+            low, high = (ahead, high) if value < score else (low, ahead)
+            rise = value - before[1]
+            nearer = ahead + (score - value) * (ahead - before[0]) / rise if rise else math.nan
+            if not low <= nearer <= high:
+                nearer = 0.5 * (low + high)
+            if abs(nearer - ahead) < ANGLE_TOLERANCE:
+                return nearer
+            before, ahead = (ahead, value), nearer
+        return ahead
 
     def interval(self, level: float = 0.95) -> tuple[float, float] | None:
         """Return the interval in rad that holds the angle of an equilibrium with a probability.
@@ -199,7 +228,7 @@ class SlipAngleDistribution:
             raise ValueError(f'level is {level!r}, allowed is between 0 and 1')
         if not self.is_closed_form:
             return self._drawn.interval(level)
-        low, high = self._before(0.0), self._before(self._stop)
+        low, high = self._at_ends
         shares = (0.5 * (1.0 - level), 0.5 * (1.0 + level))
         levels = [low + share * (high - low) for share in shares]
         if not 0.0 < levels[0] < levels[1] < 1.0:
@@ -208,6 +237,17 @@ class SlipAngleDistribution:
         if one is None or other is None:
             return None
         return min(one, other), max(one, other)
+
+    @cached_property
+    def _ends(self) -> tuple[float, float]:
+        """The score at 0 and at the stop."""
+        return self._score(0.0), self._score(self._stop)
+
+    @cached_property
+    def _at_ends(self) -> tuple[float, float]:
+        """F at 0 and at the stop."""
+        at_zero, at_stop = self._ends
+        return _NORMAL.cdf(at_zero), _NORMAL.cdf(at_stop)
 
     def _before(self, ahead: float) -> float:
         """F at an angle ahead in rad."""
@@ -220,15 +260,11 @@ class SlipAngleDistribution:
         by_tensions = slip_by_tensions(slip, point, self._design.relative_lever)
         variance = self._stddev**2 * (by_tensions[0] ** 2 + by_tensions[1] ** 2)
         if self._uncertainty is not None:
-            names, covariance = self._uncertainty.parameters, self._uncertainty.covariance
+            names = self._uncertainty.parameters
             slopes = excess_by_design(
                 lambda other: self._excess_of(other, ahead), self._design, names, slip.total
             )
-            variance += sum(
-                a * b * covariance[i][j]
-                for i, a in enumerate(slopes)
-                for j, b in enumerate(slopes)
-            )
+            variance += self._uncertainty.variance(dict(zip(names, slopes, strict=True)))
         return self._direction * float(point.excess) / math.sqrt(variance)
 
     def _excess_of(self, design: JointDesign, ahead: float) -> float:
@@ -239,26 +275,6 @@ class SlipAngleDistribution:
     @cached_property
     def _drawn(self) -> _Drawn:
         return _Drawn(self._design, self._tensions, self._load, self._stddev, self._uncertainty)
-
-
-class _Score:
-    """The score above a level as a function of which `roots.refine` finds the root."""
-
-    def __init__(self, distribution: SlipAngleDistribution, level: float) -> None:
-        self._distribution = distribution
-        self._level = level
-
-    def probe(self, place: float) -> Probe:
-        """Return place, value and slope."""
-        step = 1e-6
-        before, here, after = (
-            self._distribution._score(at) for at in (place - step, place, place + step)
-        )
-        return place, here - self._level, (after - before) / (2.0 * step)
-
-    def slope_bounds(self, _one: Probe, _other: Probe) -> tuple[float, float]:
-        """Nothing is known of the slope."""
-        return -math.inf, math.inf
 
 
 class _Drawn:
@@ -274,7 +290,7 @@ class _Drawn:
     ) -> None:
         import numpy as np  # Here, for who stays in closed form should not wait for it.
 
-        from .batch import REGIME_CODES, solve_batch
+        from .batch import INVALID, REGIME_CODES, solve_batch
         from .draws import draw_designs, draw_normals
 
         parameters = 0 if uncertainty is None else len(uncertainty.parameters)
@@ -284,12 +300,15 @@ class _Drawn:
         pairs = np.maximum(pairs, 0.0)
         if uncertainty is not None:
             designs = draw_designs(design, uncertainty, normals[2:])
+            # One by one: a batch is of one design.
             answers = [
-                solve_batch(one, pair[:1], pair[1:], load)
-                for one, pair in zip(designs, pairs.T, strict=True)
+                _answer(one, left, right, load)
+                for one, (left, right) in zip(designs, pairs.T.tolist(), strict=True)
             ]
-            regimes = np.concatenate([answer.regime for answer in answers])
-            angles = np.concatenate([answer.bend_angle for answer in answers])
+            regimes = np.array(
+                [INVALID if regime is None else REGIME_CODES[regime] for regime, _ in answers]
+            )
+            angles = np.array([angle for _, angle in answers])
         else:
             batch = solve_batch(design, pairs[0], pairs[1], load)
             regimes, angles = batch.regime, batch.bend_angle
@@ -325,3 +344,14 @@ class _Drawn:
             return None
         outside = int(0.5 * (1.0 - level) * len(self._angles))
         return self._angles[outside], self._angles[-1 - outside]
+
+
+def _answer(
+    design: JointDesign, tension_l: float, tension_s: float, load: Load
+) -> tuple[Regime | None, float]:
+    """Regime and bend angle in rad; None and NaN where there is none."""
+    try:
+        answer = solve(design, tension_l, tension_s, load)
+    except TensionError:
+        return None, math.nan
+    return answer.regime, math.nan if answer.bend_angle is None else answer.bend_angle

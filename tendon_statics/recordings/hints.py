@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
+from numpy.typing import NDArray
 
 from ..estimation.settings import MANY_WEIGHTS
 from ..physics import JointDesign
-from .recording import Recording
+from ..tensions.watch import Plausibility
+from .recording import Floats, Recording
+
+_ALL_BELIEVED = Plausibility()
 
 BEYOND = 0.2
 """Share of angles beyond the stop above which their unit is doubted: a unit rests against its stop
@@ -15,12 +21,26 @@ and does not pass it, but for noise"""
 SLACK_OF_STOP = 0.05
 """Share of the stop by which noise or a rough drawing may put an angle beyond it"""
 
+SPIKE = 5.0
+"""Times the unit's weight by which a spike stands out of the samples around it at least"""
+
+STANDS_OUT = 3.0
+"""Times the largest other step, likewise"""
+
+AGREE = 0.1
+"""Share of a spike's height by which the samples before and after it differ at most"""
+
 SLOWEST, FASTEST = 2.5, 1e-5
 """s from one sample to the next, in the median"""
 
 
-def hints(recording: Recording, design: JointDesign) -> list[str]:
-    """Say what is probably in degrees, millinewtons, counts, milliseconds or the like."""
+def hints(
+    recording: Recording, design: JointDesign, believed: Plausibility = _ALL_BELIEVED
+) -> list[str]:
+    """Say what is probably in degrees, millinewtons, counts, milliseconds or the like.
+
+    And where tensions have spikes, unless `believed` has their rate checked.
+    """
     return [
         hint
         for hint in (
@@ -28,6 +48,7 @@ def hints(recording: Recording, design: JointDesign) -> list[str]:
             _of_tilt(recording),
             _of_tensions(recording, design),
             _of_time(recording),
+            *_of_spikes(recording, design, believed),
         )
         if hint
     ]
@@ -87,6 +108,37 @@ def _of_tensions(recording: Recording, design: JointDesign) -> str:
             'tension_l [kgf] or --units tension=kgf'
         )
     return ''
+
+
+def _of_spikes(recording: Recording, design: JointDesign, believed: Plausibility) -> list[str]:
+    if believed.max_rate > 0.0 and recording.time is not None:
+        return []
+    found = []
+    for name, values in (('tension_l', recording.tension_l), ('tension_s', recording.tension_s)):
+        believed_ones = np.where(np.array(recording.known_faults) == '', values, math.nan)
+        places = _spikes(believed_ones, SPIKE * design.weight)
+        if len(places):
+            place = int(places[0])
+            found.append(
+                f'{name} goes from {values[place - 1]:.4g} N to {values[place]:.4g} N and back '
+                f'within one sample, {len(places)} times: if the cable does not, set its '
+                'max_tension, or max_tension_rate, in the design file (a rate needs times; '
+                '--rate HZ makes those of a table), or a tracked unit is put where it is not'
+            )
+    return found
+
+
+def _spikes(values: Floats, least: float) -> NDArray[np.intp]:
+    """Places of single values that stand out of those before and after them; NaN is none."""
+    if len(values) < 3:
+        return np.array([], dtype=np.intp)
+    before, at, after = values[:-2], values[1:-1], values[2:]
+    height = np.minimum(at - before, at - after)
+    places = np.flatnonzero((height > least) & (abs(after - before) <= AGREE * height)) + 1
+    others = np.delete(abs(np.diff(values)), np.concatenate([places - 1, places]))
+    others = others[np.isfinite(others)]
+    largest = float(others.max()) if len(others) else math.inf
+    return places[height[places - 1] > STANDS_OUT * largest]
 
 
 def _of_time(recording: Recording) -> str:

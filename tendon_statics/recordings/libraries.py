@@ -25,6 +25,6 @@ def needed(*modules: str, purpose: str) -> tuple[Any, ...]:
             ) from None
         library = (error.name or modules[0]).split('.')[0]
         raise RecordingError(
-            f'{purpose} need {library}: pip install {library}, '
-            "or all of them in the folder of tendon_statics: pip install '.[recordings,matlab]'"
+            f'{purpose} need {library}: pip install {library}, or all of them in the folder of '
+            "tendon_statics: pip install '.[archive,recordings,matlab]'"
         ) from None

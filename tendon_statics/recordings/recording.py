@@ -48,6 +48,8 @@ class Recording:
     """s"""
     time_origin: int = 0
     """ns of the Unix epoch at which `time` is 0, where that is known"""
+    clock: str = ''
+    """Of a bag, what `time` is by: ``stamp`` or ``log``, topic by topic where they differ"""
     name: str = 'recording'
     """Where it comes from, without the folder"""
     damage: tuple[str, ...] = ()
@@ -161,9 +163,7 @@ class Recording:
     @property
     def damage_summary(self) -> str:
         """What could not be read, in one line; empty if all could."""
-        named = '; '.join(self.damage[:MOST_NAMED])
-        more = len(self.damage) - MOST_NAMED
-        return named + (f'; and {more} more such places' if more > 0 else '')
+        return summary_of_damage(self.damage)
 
     @property
     def disorder(self) -> str:
@@ -210,6 +210,13 @@ class Recording:
         if self.damage:
             raise RecordingError(f'{self.name}: {self.damage_summary}')
         return self
+
+
+def summary_of_damage(places: Sequence[str]) -> str:
+    """Return what could not be read, in one line."""
+    named = '; '.join(places[:MOST_NAMED])
+    more = len(places) - MOST_NAMED
+    return named + (f'; and {more} more such places' if more > 0 else '')
 
 
 def _last_known(values: Floats) -> Floats:

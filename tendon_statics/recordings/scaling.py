@@ -91,7 +91,10 @@ def _said(unit: Unit, recording: Recording, applies: bool) -> list[str]:
         )
     believed = unit.settings.plausibility
     if believed.max_rate > 0.0 and recording.time is None:
-        found.append('max_tension_rate of the design file is not checked: there are no times')
+        found.append(
+            'max_tension_rate of the design file is not checked: there are no times '
+            '(--rate HZ makes them)'
+        )
     elif believed.is_checked:
         checks = {
             'too fast': believed.max_rate,

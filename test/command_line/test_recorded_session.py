@@ -131,6 +131,15 @@ def test_a_report_of_what_cannot_be_fitted_says_why(tmp_path):
     assert 'Nothing could be fitted: there is no measured bend angle' in page.text
     assert 'Recorded session a<b>.csv' in page.text
     assert 'Not all of it could be read: line 4' in page.text
+    assert 'not all of it could be read: line 4' in run('calibrate', data).stderr
+
+
+def test_a_report_in_which_nothing_is_determined_says_no_more_than_that(tmp_path):
+    data = tmp_path / 'counts.csv'
+    data.write_text('tension_l,tension_s\n10213,15233\n10213,15333\n')
+    done = run('report', data, '--output', tmp_path / 'report.html')
+    assert done.returncode == 0
+    assert done.stderr.count('\n') == 1, done.stderr
 
 
 @pytest.mark.parametrize(

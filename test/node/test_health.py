@@ -5,6 +5,7 @@ import time
 
 from designs import PRELIMINARY
 from diagnostic_msgs.msg import DiagnosticStatus
+from estimates import estimate_of
 from listener import Listener
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -39,10 +40,10 @@ def values(status: DiagnosticStatus) -> dict[str, str]:
 def test_the_worst_since_the_last_report_counts():
     health = Health()
     assert said(health) == (OK, 'no tensions came yet')
-    health.note_result(solve(PRELIMINARY, *SLIPPING), 1e-4)
+    health.note_estimate(estimate_of(solve(PRELIMINARY, *SLIPPING)), 1e-4)
     assert said(health) == (OK, 'equilibrium')
-    health.note_result(solve(PRELIMINARY, *HELD), 1e-4)
-    health.note_result(solve(PRELIMINARY, *STOP), 1e-4)
+    health.note_estimate(estimate_of(solve(PRELIMINARY, *HELD)), 1e-4)
+    health.note_estimate(estimate_of(solve(PRELIMINARY, *STOP)), 1e-4)
     level, message = said(health)
     assert level == WARN
     assert message == 'held, so that tensions do not determine the angle (1 of 3)'
@@ -64,13 +65,13 @@ def test_a_known_fault_says_more_than_silence():
     health.note_drop(Reason.IMPLAUSIBLE, 'tension_l is 2000.0 N')
     assert said(health)[0] == ERROR
     assert health.level is Level.ERROR
-    health.note_result(solve(PRELIMINARY, *SLIPPING), 1e-4)
+    health.note_estimate(estimate_of(solve(PRELIMINARY, *SLIPPING)), 1e-4)
     assert not health.stale
 
 
 def test_with_memory_held_is_as_it_should_be():
     health = Health()
-    health.note_result(StickSlipTracker(PRELIMINARY).update(*HELD), 1e-4)
+    health.note_estimate(estimate_of(StickSlipTracker(PRELIMINARY).update(*HELD)), 1e-4)
     assert said(health) == (OK, 'held')
 
 
@@ -79,13 +80,13 @@ def test_a_result_of_the_other_branch_is_a_warning():
     result = solve(PRELIMINARY, 0.05, 0.15)
     assert result.branch_consistent is False
     health = Health()
-    health.note_result(result, 1e-4)
+    health.note_estimate(estimate_of(result), 1e-4)
     assert said(health) == (WARN, 'forces ask for the other root of the model (1 of 1)')
 
 
 def test_two_publishers_and_lost_messages_are_warnings():
     health = Health()
-    health.note_result(solve(PRELIMINARY, *SLIPPING), 1e-4)
+    health.note_estimate(estimate_of(solve(PRELIMINARY, *SLIPPING)), 1e-4)
     status = status_of(health, 'n: t', 'bend', {'/tensions': 2})
     assert (status.level, status.message) == (WARN, '2 publishers on /tensions, one is expected')
     assert values(status)['publishers on /tensions'] == '2'
@@ -105,7 +106,7 @@ def test_where_lost_messages_are_not_seen_none_is_claimed():
 
 def test_tensions_that_waited_long_are_older_and_a_warning():
     health = Health()
-    health.note_result(solve(PRELIMINARY, *SLIPPING), 1e-4)
+    health.note_estimate(estimate_of(solve(PRELIMINARY, *SLIPPING)), 1e-4)
     health.note_lag(0.2, most=0.5)
     assert said(health)[0] == OK
     assert float(values(status_of(health, 'n: t', 'b', {}))['age of newest tensions [s]']) >= 0.2

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from designs import PRELIMINARY, cases
+from estimates import estimate_of
 from hypothesis import given
 from std_msgs.msg import Header
 from visualization_msgs.msg import Marker
@@ -19,9 +20,8 @@ HELD, SLIPPING, STOP, SLACK = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0), (0.0, 2.0)
 
 
 def drawn(design, tensions) -> tuple[Marker, Marker, Marker]:
-    result = solve(design, *tensions)
-    intervals = [] if result.regime is Regime.SLACK else admissible_angles(design, *tensions)
-    unit, band, label, *_ = unit_markers(result, intervals, HEADER).markers
+    estimate = estimate_of(solve(design, *tensions))
+    unit, band, label, *_ = unit_markers(estimate, HEADER).markers
     return unit, band, label
 
 
@@ -37,7 +37,7 @@ def test_the_unit_points_to_its_angle(tensions):
 def test_gravity_and_the_force_on_the_tip_are_arrows():
     load = Load((0.6, 0.0, -0.8), tip_force=(0.03, -0.04), tip_distance=0.02)
     result = solve(PRELIMINARY, *STOP, load)
-    *_, gravity, tip_force = unit_markers(result, [], HEADER).markers
+    *_, gravity, tip_force = unit_markers(estimate_of(result), HEADER).markers
     start, end = gravity.points
     arrow = np.array([end.x - start.x, end.y - start.y, end.z - start.z])
     assert arrow / np.linalg.norm(arrow) == pytest.approx(load.gravity_direction)
@@ -45,7 +45,7 @@ def test_gravity_and_the_force_on_the_tip_are_arrows():
     angle = result.bend_angle
     assert (end.x, end.z) == pytest.approx((0.02 * math.sin(angle), 0.02 * math.cos(angle)))
     assert (end.x - start.x) / (end.z - start.z) == pytest.approx(0.03 / -0.04)
-    *_, gravity, tip_force = unit_markers(solve(PRELIMINARY, *STOP), [], HEADER).markers
+    *_, gravity, tip_force = unit_markers(estimate_of(solve(PRELIMINARY, *STOP)), HEADER).markers
     assert (gravity.action, tip_force.action) == (Marker.ADD, Marker.DELETE)
 
 

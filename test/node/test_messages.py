@@ -6,13 +6,19 @@ import random
 
 import pytest
 from designs import PRELIMINARY
+from estimates import estimate_of
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from std_msgs.msg import Float64MultiArray, Header
 
+from tendon_statics.estimation.estimate import KnownLoad, Sample
+from tendon_statics.estimation.filtering import Filtering
+from tendon_statics.estimation.settings import Settings
 from tendon_statics.node.outputs import messages
+from tendon_statics.physics import UPRIGHT as UPRIGHT_LOAD
 from tendon_statics.physics import Regime, StickSlipTracker, solve
 
 NOISE = 0.01
+HELD, STOP, SLACK = (1.0, 1.5), (1.0, 3.0), (0.0, 1.5)
 
 
 UPRIGHT, HANGING = PRELIMINARY, dataclasses.replace(PRELIMINARY, com_distance=-0.02)
@@ -31,8 +37,7 @@ def results(design):
 
 
 def estimate_in(message, result):
-    ends = [(0.1, 0.2)] * len(result.regime.value)
-    return messages.fill_estimate(message, result, result.bend_angle, ends, NOISE, Header())
+    return messages.fill_estimate(message, estimate_of(result), Header())
 
 
 @pytest.mark.skipif(bool(messages.INTERFACES_MISSING), reason=messages.INTERFACES_MISSING)
@@ -55,7 +60,46 @@ def test_what_is_not_known_is_not_a_number_in_an_estimate():
     known -= {name for name in known if math.isnan(numbers[name])}
     of_load = {f'gravity_direction_{axis}' for axis in 'xyz'}
     of_load |= {'tip_force_x', 'tip_force_z', 'tip_distance'}
-    assert known == {'tension_l', 'tension_s', *of_load}
+    regimes = ('equilibrium', 'held', 'slipping', 'driven_to_stop', 'slack')
+    of_regimes = {f'probability_{regime}' for regime in regimes}
+    assert known == {'tension_l', 'tension_s', *of_load, *of_regimes}
+
+
+def filtered_estimates():
+    """Estimates of a filter: through a slip, with a measured angle, through a slack cable."""
+    settings = Settings(PRELIMINARY, tension_stddev=0.01)
+    method, found = Filtering(settings), []
+    for place, pair in enumerate([HELD] * 20 + [STOP] * 20 + [SLACK, HELD]):
+        known = KnownLoad(UPRIGHT_LOAD, is_assured=place != 10)
+        found.append(method.update(Sample(*pair, known, 0.01 * place, 0.01 * place)))
+        found += method.take_committed()
+        if place == 15:
+            method.measure(0.1)
+    return found
+
+
+def test_an_estimate_of_a_filter_has_band_and_probabilities_and_nothing_of_the_one_before():
+    used, regimes, provisional = messages.Estimate(), set(), set()
+    exact = [estimate_of(result) for result in results(UPRIGHT)[:40]]
+    for estimate in [*filtered_estimates(), *exact, *filtered_estimates()]:
+        messages.fill_estimate(used, estimate, Header())
+        assert str(used) == str(messages.fill_estimate(messages.Estimate(), estimate, Header()))
+        if estimate.exact is not None:
+            continue
+        regimes.add(used.regime)
+        provisional.add(used.provisional)
+        probabilities = [getattr(used, f'probability_{regime.value}') for regime in Regime]
+        assert sum(probabilities) == pytest.approx(1.0)
+        if used.angle_assured:
+            assert used.bend_angle_low <= used.bend_angle <= used.bend_angle_high
+            assert used.bend_angle_stddev >= 0.0
+        else:
+            assert math.isnan(used.bend_angle_low)
+            assert math.isnan(used.bend_angle_stddev)
+        assert math.isnan(used.pressure_force_x)
+        assert math.isnan(used.bend_angle_by_tension_l)
+    assert regimes == {'held', 'driven_to_stop', 'slack'}
+    assert provisional == {True, False}
 
 
 def test_intervals_and_poses_hold_nothing_of_those_before():

@@ -27,7 +27,7 @@ TIMES = ['use_sim_time:=false', 'use_sim_time:=true']
 CONFIGURATIONS = {
     Estimator: [
         SOURCES,
-        ['estimation:=equilibrium', 'estimation:=tracking'],
+        ['estimation:=equilibrium', 'estimation:=tracking', 'estimation:=filtering'],
         ['gravity_source:=fixed', 'gravity_source:=imu', 'gravity_source:=pose'],
         ['tip_wrench:=false', 'tip_wrench:=true'],
         ['markers:=false', 'markers:=true'],

@@ -10,7 +10,8 @@ from hypothesis import given
 from thoroughness import examples
 
 from tendon_statics.physics.array_roots import array_brackets, array_refine
-from tendon_statics.physics.batch import _facing_slips, _Rows
+from tendon_statics.physics.batch.pairs import facing_slips
+from tendon_statics.physics.batch.solver import SlipRows
 from tendon_statics.physics.load import UPRIGHT
 from tendon_statics.physics.roots import ANGLE_TOLERANCE
 from tendon_statics.physics.tensions import Tensions, taut_slip
@@ -18,8 +19,8 @@ from tendon_statics.physics.tensions import Tensions, taut_slip
 
 def both(design, tension_l, tension_s, load=UPRIGHT):
     slip = taut_slip(design, Tensions(tension_l, tension_s), load)
-    slips = _facing_slips(design, load, np.array([tension_l]), np.array([tension_s]), ())
-    return _Rows(slips), slip.mirrored() if tension_l > tension_s else slip
+    slips = facing_slips(design, load, np.array([tension_l]), np.array([tension_s]), ())
+    return SlipRows(slips), slip.mirrored() if tension_l > tension_s else slip
 
 
 @given(cases())
@@ -59,7 +60,7 @@ def test_brackets_are_those_of_one_pair():
 
 def test_a_root_is_proven_by_a_bracket_of_the_bisections_width():
     tensions = np.ones(200), np.linspace(1.965, 2.045, 200)
-    rows = _Rows(_facing_slips(PRELIMINARY, UPRIGHT, *tensions, ()))
+    rows = SlipRows(facing_slips(PRELIMINARY, UPRIGHT, *tensions, ()))
     found = array_brackets(rows, 200, 0.0, PRELIMINARY.max_bend_angle)
     roots = array_refine(rows, list(found.low), list(found.high))
     assert not roots.unresolved.any()
@@ -72,7 +73,7 @@ def test_a_root_is_proven_by_a_bracket_of_the_bisections_width():
 
 def test_what_is_no_root_is_not_taken_for_one():
     """A bracket over which g does not change sign ends as unresolved."""
-    rows = _Rows(_facing_slips(PRELIMINARY, UPRIGHT, np.ones(2), np.array([1.5, 2.5]), ()))
+    rows = SlipRows(facing_slips(PRELIMINARY, UPRIGHT, np.ones(2), np.array([1.5, 2.5]), ()))
     ends = (rows.probe(slice(None), end)[:3] for end in (0.0, PRELIMINARY.max_bend_angle))
     roots = array_refine(rows, *ends)
     assert roots.unresolved.all()

@@ -17,8 +17,7 @@ from programs import TIME_LIMIT
 from thoroughness import examples
 
 from tendon_statics import JointDesign, Load, Regime, TensionError, solve, solve_batch
-from tendon_statics.physics import batch as batch_module
-from tendon_statics.physics.batch import INVALID, REGIME_CODES
+from tendon_statics.physics.batch import INVALID, REGIME_CODES, pairs
 from tendon_statics.physics.tensions import MAX_TENSION
 
 NUMBERS = ('bend_angle', 'pressure', 'normal_force', 'residual')
@@ -227,7 +226,7 @@ def test_the_size_of_a_chunk_does_not_matter(size, monkeypatch):
     draw = np.random.default_rng(size)
     tensions = draw.uniform(0.0, 3.0, (2, size))
     whole = solve_batch(PRELIMINARY, *tensions)
-    monkeypatch.setattr(batch_module, 'CHUNK', 7)
+    monkeypatch.setattr(pairs, 'CHUNK', 7)
     cut = solve_batch(PRELIMINARY, *tensions)
     for name in ('regime', 'root_count', 'iterations', *NUMBERS, *FLAGS):
         np.testing.assert_array_equal(getattr(cut, name), getattr(whole, name))

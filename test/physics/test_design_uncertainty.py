@@ -1,5 +1,7 @@
 """`DesignUncertainty`: what a covariance of design parameters is, and the file it stands in."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from designs import PRELIMINARY
@@ -10,6 +12,7 @@ from tendon_statics import (
     load_design,
     load_design_uncertainty,
     save_design,
+    solve,
 )
 from tendon_statics.files.unit_file import load_unit
 
@@ -43,6 +46,35 @@ def test_deviations_are_the_roots_of_the_diagonal():
     assert TWO.stddev('gravity') == 0.0
     assert DesignUncertainty.of_flat(TWO.parameters, TWO.flat) == TWO
     assert DesignUncertainty((), ()).flat == []
+
+
+def test_the_deviations_of_an_answer_cover_the_design():
+    """As draws of tensions and design have it, solved one by one."""
+    random = np.random.default_rng(3)
+    small = DesignUncertainty(TWO.parameters, tuple((1e-2 * np.array(TWO.covariance)).tolist()))
+    answer = solve(PRELIMINARY, 1.0, 2.0)
+    noise = 1e-4
+    drawn = [
+        solve(
+            dataclasses.replace(
+                PRELIMINARY,
+                **{
+                    name: getattr(PRELIMINARY, name) + 0.1 * change
+                    for name, change in zip(TWO.parameters, changes, strict=True)
+                },
+            ),
+            *(tension + random.normal(0.0, noise) for tension in (1.0, 2.0)),
+        )
+        for changes in random.multivariate_normal([0.0, 0.0], TWO.covariance, 4000)
+    ]
+    drawn = [one for one in drawn if one.regime == 'equilibrium']
+    assert len(drawn) > 3900
+    for name in ('bend_angle', 'pressure'):
+        spread = np.std([getattr(one, name) for one in drawn])
+        stddev = getattr(answer, f'{name}_stddev')
+        assert stddev(noise, small) == pytest.approx(spread, rel=0.06)
+        assert stddev(noise) < 0.5 * spread
+        assert stddev(noise, DesignUncertainty((), ())) == stddev(noise)
 
 
 def test_a_file_that_does_not_say_has_none(tmp_path):

@@ -1,5 +1,6 @@
 """`StickSlipFilter`: where a unit is under noise, how sure that is, and what it never does."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -10,11 +11,13 @@ from thoroughness import some_of
 
 from tendon_statics import (
     BendAngleError,
+    DesignUncertainty,
     Load,
     Regime,
     StickSlipFilter,
     StickSlipTracker,
     TensionError,
+    design_parameters,
 )
 
 HANGING, _ = UNITS['hanging']
@@ -203,7 +206,7 @@ def test_the_truth_of_a_random_session_is_within_the_interval(unit):
     drawn = session(unit, 'ramps', 0.01, 200.0, 8.0, np.random.default_rng(12))
     found = StickSlipFilter(drawn.design, tension_stddev=drawn.noise)
     covered = []
-    for time, truth, *pair in zip(*(part.tolist() for part in drawn[4:]), strict=True):
+    for time, truth, *pair in drawn.samples:
         low, high = found.update(*pair, time).interval(0.95)
         covered.append(low - 1e-9 <= truth <= high + 1e-9)
     assert np.mean(covered) > 0.7
@@ -216,3 +219,80 @@ def test_a_gap_in_time_is_not_bridged():
     state = fed(found, [(3.0, 6.0)] * 3, start=10.0)[-1]
     expected = StickSlipTracker(HANGING).update(3.0, 6.0).bend_angle
     assert state.bend_angle == pytest.approx(expected, abs=math.radians(2.0))
+
+
+FRICTION = DesignUncertainty(('friction_coefficient',), ((0.01**2,),))
+
+
+def test_a_design_that_is_not_quite_known_widens_what_is_known():
+    ramp = [(3.0, 3.0 + 0.004 * index) for index in range(640)]
+    exact = StickSlipFilter(HANGING, tension_stddev=NOISE)
+    unsure = StickSlipFilter(HANGING, tension_stddev=NOISE, design_covariance=FRICTION)
+    one, other = fed(exact, ramp)[-1], fed(unsure, ramp)[-1]
+    assert other.bend_angle_stddev > 2.0 * one.bend_angle_stddev
+    assert other.pressure_stddev > one.pressure_stddev
+    for friction in (0.385, 0.415):
+        true = dataclasses.replace(HANGING, friction_coefficient=friction)
+        low, high = other.interval(0.95)
+        assert low <= follow_exactly(true, ramp) <= high
+
+
+def follow_exactly(design, tensions, load=None):
+    tracker = StickSlipTracker(design)
+    for pair in tensions:
+        tracker.update(*pair, *([] if load is None else [load]))
+    return tracker.bend_angle
+
+
+@pytest.mark.parametrize('unit', list(UNITS))
+def test_a_stack_of_the_design_itself_is_the_design(unit):
+    """One formula serves both; every parameter is uncertain, by nothing."""
+    design, weak = UNITS[unit]
+    names = [parameter.name for parameter in design_parameters()]
+    nothing = DesignUncertainty(tuple(names), tuple((0.0,) * len(names) for _ in names))
+    little = DesignUncertainty(
+        tuple(names),
+        tuple(tuple(1e-30 if one == other else 0.0 for other in names) for one in names),
+    )
+    ramp = [(weak, weak * (1.0 + 0.004 * index)) for index in range(400)]
+    back = [(weak * (1.0 + 0.004 * index), weak) for index in range(400)]
+    runs = [
+        fed(StickSlipFilter(design, tension_stddev=NOISE, **more), ramp + back)[-1]
+        for more in ({}, {'design_covariance': nothing}, {'design_covariance': little})
+    ]
+    for other in runs[1:]:
+        np.testing.assert_allclose(other.members, runs[0].members, atol=1e-7)
+        assert other.regime_probabilities == runs[0].regime_probabilities
+        assert other.pressure == pytest.approx(runs[0].pressure, rel=1e-6)
+
+
+@pytest.mark.parametrize('unsure', [None, FRICTION])
+def test_a_load_that_turns_is_followed_with_each_of_its_values(unsure):
+    """Also by an unstable unit, whose members are followed pair by pair."""
+    found = StickSlipFilter(PRELIMINARY, tension_stddev=1e-3, design_covariance=unsure)
+    tracker = StickSlipTracker(PRELIMINARY)
+    random = np.random.default_rng(2)
+    for index in range(300):
+        load = Load.tilted(0.001 * index)
+        pair = np.array([1.0, 1.0 + 0.004 * index])
+        tracker.update(*pair, load)
+        state = found.update(*(pair + random.normal(0.0, 1e-3, 2)), index / 200.0, load)
+    assert tracker.bend_angle == PRELIMINARY.max_bend_angle
+    assert state.bend_angle == PRELIMINARY.max_bend_angle
+
+
+def test_a_measured_angle_far_from_all_members_is_believed():
+    found = StickSlipFilter(HANGING, tension_stddev=NOISE)
+    fed(found, [(3.0, 3.5)] * 50)
+    found.measure(0.15, 0.002)
+    assert fed(found, [(3.0, 3.5)] * 5, start=1.0)[-1].bend_angle == pytest.approx(0.15, abs=0.005)
+
+
+def test_what_was_measured_is_committed():
+    found = StickSlipFilter(HANGING, tension_stddev=NOISE)
+    for index in range(100):
+        found.update(3.0, 3.5, index / 500.0)
+        found.measure(0.0, 0.002)
+    assert found.committed.time == 99 / 500.0
+    assert not found.committed.provisional
+    assert found.history(0.1).time == pytest.approx(0.1)

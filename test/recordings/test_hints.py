@@ -6,10 +6,14 @@ import numpy as np
 import pytest
 from designs import PRELIMINARY
 from programs import run
+from slips import recording, session, slipping_samples
 
-from tendon_statics import Recording
+from tendon_statics import Recording, load_recording
+from tendon_statics.files.installed_files import installed_config
 from tendon_statics.recordings.hints import hints
+from tendon_statics.tensions.watch import Plausibility
 
+SESSION = installed_config('recorded_session.mcap')
 ONES = np.ones(5)
 TIMES = np.arange(5.0)
 
@@ -75,3 +79,34 @@ def test_every_verb_gives_the_hint_on_degrees_whatever_the_regime(tmp_path, verb
     said = done.stdout + done.stderr + (output.read_text() if verb == 'report' else '')
     assert 'of the measured angles lie beyond the stop' in said
     assert 'bend_angle [deg]' in said
+
+
+SPIKE = {'tension_l': [1.0] * 4, 'tension_s': [1.5, 4.194, 1.5, 1.5]}
+
+
+def test_a_spike_is_said_with_or_without_times_unless_rates_are_checked():
+    for time in (None, [0.0, 0.1, 0.2, 0.3]):
+        spiked = Recording(**SPIKE, time=time)
+        (hint,) = hints(spiked, PRELIMINARY)
+        assert 'tension_s goes from 1.5 N to 4.194 N and back within one sample, 1 times' in hint
+        checked = hints(spiked, PRELIMINARY, Plausibility(max_rate=10.0))
+        assert checked == ([hint] if time is None else [])
+    known = Recording(**SPIKE, faults=['', 'implausible', '', ''])
+    assert hints(known, PRELIMINARY) == []
+
+
+@pytest.mark.parametrize('seed', range(10))
+def test_slips_sessions_and_noise_have_no_spikes(seed):
+    rng = np.random.default_rng(seed)
+    slips = slipping_samples(40, rng)
+    for sound in (recording(slips), session(slips[:6], rng), load_recording(SESSION)):
+        assert not any('within one sample' in hint for hint in hints(sound, PRELIMINARY))
+
+
+def test_one_spike_among_many_samples_is_found():
+    rng = np.random.default_rng(1)
+    sound = session(slipping_samples(6, rng), rng)
+    spiked = sound.tension_l.copy()
+    spiked[100] += 12.0
+    (hint,) = hints(dataclasses.replace(sound, tension_l=spiked), PRELIMINARY)
+    assert 'tension_l goes from' in hint

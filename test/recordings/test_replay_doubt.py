@@ -9,6 +9,7 @@ from designs import PRELIMINARY
 from programs import run
 
 from tendon_statics import Recording
+from tendon_statics.estimation.methods import METHODS
 from tendon_statics.estimation.settings import Settings
 from tendon_statics.estimation.unit_estimator import KnownLoad, UnitEstimator
 from tendon_statics.physics import UPRIGHT, Load
@@ -27,23 +28,28 @@ CASES = {
 }
 
 
-def tracked(time, tension_l, tension_s, settings=SETTINGS, **options):
+def tracked(time, tension_l, tension_s, settings=SETTINGS, estimation='tracking', **options):
     recording = Recording(tension_l=tension_l, tension_s=tension_s, time=time)
-    return replay(PRELIMINARY, recording, 'tracking', settings=settings, **options)
+    return replay(PRELIMINARY, recording, estimation, settings=settings, **options)
 
 
+REMEMBERING = [name for name, method in METHODS.items() if method.remembers]
+
+
+@pytest.mark.parametrize('estimation', REMEMBERING)
 @pytest.mark.parametrize('case', CASES)
-def test_its_angle_is_not_assured_any_more(case):
-    found = tracked(*CASES[case])
+def test_its_angle_is_not_assured_any_more(case, estimation):
+    found = tracked(*CASES[case], estimation=estimation)
     assert found.angle_assured[0]
     assert not found.angle_assured[1:].any()
     assert found.bend_angle[-1] == 0.0
 
 
+@pytest.mark.parametrize('estimation', REMEMBERING)
 @pytest.mark.parametrize('case', CASES)
-def test_node_and_replay_say_the_same(case):
+def test_node_and_replay_say_the_same(case, estimation):
     """The node's estimator, fed with the same samples at the same times."""
-    unit, expected = UnitEstimator(SETTINGS, 'tracking'), []
+    unit, expected = UnitEstimator(SETTINGS, estimation), []
     for time, *tensions in zip(*CASES[case], strict=True):
         try:
             result = unit.take(*tensions, KnownLoad(UPRIGHT), time, time)
@@ -51,7 +57,7 @@ def test_node_and_replay_say_the_same(case):
             expected.append(('invalid', error.reason.value, False))
         else:
             expected.append((result.regime.value, 'valid', result.angle_assured))
-    found = tracked(*CASES[case])
+    found = tracked(*CASES[case], estimation=estimation)
     columns = (found.regime.tolist(), found.validity.tolist(), found.angle_assured.tolist())
     assert list(zip(*columns, strict=True)) == expected
 
@@ -100,11 +106,24 @@ def test_a_unit_s_file_says_what_is_believed(tmp_path):
 
 def test_a_rate_that_cannot_be_checked_is_said(tmp_path):
     data, unit = tmp_path / 'spike.csv', tmp_path / 'unit.yaml'
-    data.write_text('tension_l,tension_s\n1.0,1.5\n1.0,4.194\n1.0,1.5\n')
+    data.write_text('tension_l,tension_s\n1.0,1.5\n1.0,4.194\n1.0,1.5\n1.0,1.5\n')
     lines = ''.join(f'      {name}: {v}\n' for name, v in dataclasses.asdict(PRELIMINARY).items())
     unit.write_text(f'/**:\n  ros__parameters:\n    max_tension_rate: 1.0\n    design:\n{lines}')
-    said = run('replay', data, '--design', unit, '--estimation', 'tracking').stdout
-    assert 'max_tension_rate of the design file is not checked: there are no times' in said
+    asked = ('replay', data, '--design', unit, '--estimation', 'tracking')
+    said = run(*asked).stdout
+    assert 'max_tension_rate of the design file is not checked: there are no times (--rate' in said
+    assert 'warning       tension_s goes from 1.5 N to 4.194 N and back within one sample' in said
+    timed = run(
+        'replay', data, '--design', unit, '--estimation', 'tracking', '--rate', '10'
+    ).stdout
+    assert 'invalid       too fast 1' in timed
+    assert 'time: 10 rows per second, as was said' in timed
+    assert 'warning' not in timed
+    followed = run('track', data, '--design', unit, '--rate', '10').stdout.splitlines()
+    assert followed[-1].split(',')[3] == '0.0'
+    assert run('track', data, '--rate', '0').returncode == 2
+    data.write_text('time,tension_l,tension_s\n0,1.0,1.5\n')
+    assert 'a rate (--rate) is for tables without' in run('track', data, '--rate', '1').stderr
 
 
 def test_the_load_of_the_unit_is_that_of_its_settings_unless_another_is_given():

@@ -4,11 +4,13 @@ import dataclasses
 
 import numpy as np
 import pytest
+from designs import PRELIMINARY
 from programs import assert_refused, run
 from slips import TRUTH, measured, recording, session, slipping_samples
 
+from tendon_statics import CalibrationError, calibrate
+from tendon_statics.physics.calibration.sessions import follow_each_other
 from tendon_statics.recordings.replay.table_output import write_table
-from tendon_statics.recordings.sessions import follow_each_other
 
 
 def written(path, samples):
@@ -31,6 +33,27 @@ def test_a_session_is_known_by_its_samples_without_any_times(seed):
     samples = session(slipping_samples(6, rng), rng)
     assert follow_each_other(samples)
     assert follow_each_other(samples.part(np.arange(len(samples)) < 60))
+
+
+@pytest.mark.parametrize('count', [9, 12, 20, 29, 40])
+def test_a_short_ramp_without_times_is_refused_in_python_as_on_the_command_line(tmp_path, count):
+    rng = np.random.default_rng(count)
+    strong = np.linspace(1.2, 2.1, count)
+    rows = measured(np.stack([0 * strong + 1.0, strong, 0.1 * strong, 200 * strong], axis=1), rng)
+    with pytest.raises(CalibrationError, match='tension_s changes little from one to the next'):
+        calibrate(PRELIMINARY, recording(rows))
+    done = run('calibrate', written(tmp_path / 'run.csv', rows))
+    assert_refused(done, 'tension_s changes little from one to the next')
+
+
+def test_that_all_are_taken_to_slip_is_said(tmp_path):
+    rng = np.random.default_rng(2)
+    path = written(tmp_path / 'run.csv', measured(slipping_samples(20, rng, TRUTH), rng))
+    said = 'all slipping, as is taken of a list without states and times'
+    assert said in run('calibrate', path).stdout
+    output = tmp_path / 'fitted.yaml'
+    assert said not in run('calibrate', path, '--all-slipping', '--output', output).stdout
+    assert '# States: all slipping, as was said.' in output.read_text(encoding='utf-8')
 
 
 def test_a_long_table_is_no_list_that_anybody_has_written():

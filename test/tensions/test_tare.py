@@ -92,6 +92,22 @@ def test_the_verb_says_what_it_found_and_writes_the_file_with_it(slack, unit, tm
     assert '| cable_l |      200 |' in done.stdout
 
 
+def test_the_rest_of_the_file_stays_to_the_last_character(slack, unit):
+    text = f'# Robot 3\n{unit.read_text()}/other:\n  ros__parameters: {{speed: 010}}  # rpm\n'
+    text = text.replace('bias: -0.1', 'bias: -0.1   ').replace('010', '10')
+    unit.write_text(text, encoding='utf-8')
+    for _ in range(2):
+        done = run('tare', slack, '--design', unit, '--end', 1.995, '--output', unit)
+        assert done.returncode == 0, done.stderr
+        tared = load_unit(unit)
+        comment, *lines = unit.read_text(encoding='utf-8').splitlines(keepends=True)
+        assert comment.startswith('# Biases of ')
+        bias = f'cable_s.bias: {tared.cable_s.bias!r}'
+        expected = text.replace('-0.1', repr(tared.cable_l.bias))
+        expected = expected.replace('ros__parameters:\n', f'ros__parameters:\n    {bias}\n', 1)
+        assert ''.join(lines) == expected
+
+
 def test_the_verb_refuses_what_is_not_still_and_writes_nothing(slack, unit, tmp_path):
     output = tmp_path / 'tared.yaml'
     done = run('tare', slack, '--design', unit, '--output', output)

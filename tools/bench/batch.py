@@ -17,9 +17,8 @@ from tendon_statics import (
     solve_batch,
 )
 from tendon_statics.physics import UPRIGHT
-from tendon_statics.physics import batch as batch_module
 from tendon_statics.physics.array_numbers import ARRAYS
-from tendon_statics.physics.batch import INVALID, REGIME_CODES
+from tendon_statics.physics.batch import INVALID, REGIME_CODES, results, solver
 from tendon_statics.physics.contact import CONTACT_LAWS
 from tendon_statics.physics.slip import LoadedJoint, Slip
 
@@ -49,12 +48,12 @@ def shares() -> dict[str, float]:
     design = load_design(default_design_path())
     tensions = mixed_pairs(design, PAIRS)
     parts = (
-        (batch_module, '_facing_slips', 'what is constant for each pair'),
-        (batch_module, 'array_brackets', 'counting and bracketing roots'),
-        (batch_module, 'array_refine', 'the roots'),
-        (batch_module, '_solve_chunk', 'sorting pairs by regime, writing fields'),
-        (batch_module, '_gradients_of', 'gradients'),
-        (batch_module, 'contact_forces', 'forces and remainder'),
+        (solver, 'facing_slips', 'what is constant for each pair'),
+        (solver, 'array_brackets', 'counting and bracketing roots'),
+        (solver, 'array_refine', 'the roots'),
+        (solver, '_solve_chunk', 'sorting pairs by regime, writing fields'),
+        (results, '_gradients_of', 'gradients'),
+        (results, 'contact_forces', 'forces and remainder'),
     )
     with StopWatches(REST) as watches:
         for owner, name, part in parts:

@@ -67,7 +67,7 @@ class Callee(NamedTuple):
     """Its namespace"""
     command: Sequence[str | Path]
     answer: Callable[[float, float], tuple[float, float]]
-    """What it should say of T_l and T_s in N: bend angle in rad, pressure in Pa"""
+    """What it should say of T_l and T_s in N: bend angle in rad, pressure in Pa; NaN: whatever"""
     estimates: bool = False
     """Whether its estimates are listened to as well"""
 
@@ -207,7 +207,8 @@ class Caller(Node):
         """Return the time from each message to the last of its answers, which are checked."""
         came = np.array(self._came)  # topic, message, time and answer
         expected = self._expected[: len(sent)].T
-        if not np.allclose(came[:, :, 1], expected, rtol=TOLERANCE, atol=0.0):
+        known = np.isfinite(expected)
+        if not np.allclose(came[:, :, 1][known], expected[known], rtol=TOLERANCE, atol=0.0):
             raise RuntimeError(f'{self.name} answers {came[:, 0, 1]}, expected {expected[:, 0]}')
         return came[:, :, 0].max(axis=0) - sent
 

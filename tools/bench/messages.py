@@ -6,6 +6,9 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from std_msgs.msg import Float64MultiArray, Header
 
 from tendon_statics import default_design_path, load_design, solve
+from tendon_statics.estimation.equilibrium import PairEstimate
+from tendon_statics.estimation.estimate import KnownLoad
+from tendon_statics.estimation.settings import Settings
 from tendon_statics.node.outputs.messages import (
     Estimate,
     fill_estimate,
@@ -26,10 +29,11 @@ def rows() -> list[Row]:
     design = load_design(default_design_path())
     result = solve(design, paper.TENSION_L, paper.TENSION_S)
     header = Header(frame_id='joint')
+    estimate = PairEstimate(result, KnownLoad(result.load), Settings(design))
     fills = {
         '`Estimate`': (
             Estimate,
-            lambda message: fill_estimate(message, result, 0.5, INTERVALS, TENSION_STDDEV, header),
+            lambda message: fill_estimate(message, estimate, header),
         ),
         '`PoseWithCovarianceStamped`': (
             PoseWithCovarianceStamped,

@@ -8,6 +8,7 @@ also to the estimate, and nobody to anything else.
 from __future__ import annotations
 
 import json
+import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
@@ -33,6 +34,10 @@ STREAMS = 25
 """To every process, of `COUNT` messages each: short, so that all get the same of the machine"""
 
 COUNT = 100
+
+LONG_STREAMS, LONG_COUNT = 7, 500
+"""The same for what has a memory of the last tenths of a second"""
+
 WARM_UP = 200
 """Messages before the first stream"""
 
@@ -66,6 +71,15 @@ CALLEES = (
     Callee('events', (ESTIMATOR, '--ros-args', '-p', 'executor:=events'), _answer),
     Callee('relay_of_estimates', (*RELAY, '--estimate'), _answer_of_relay, estimates=True),
     Callee('estimates', (ESTIMATOR,), _answer, estimates=True),
+)
+FILTERED = (
+    CALLEES[0],
+    Callee(
+        'filtering',
+        (ESTIMATOR, '--ros-args', '-p', 'estimation:=filtering'),
+        # What it says hangs on when messages come; the tests hold it against the filter.
+        lambda _l, _s: (math.nan, math.nan),
+    ),
 )
 TIMED = Callee('timed', (sys.executable, Path(__file__).with_name('timed_estimator.py')), _answer)
 
@@ -104,6 +118,7 @@ def rows() -> list[Row]:
             rate >= 0.85,
         ),
         *_rows_of_estimates(estimates, relay_of_estimates),
+        _row_of_filtering(),
     ]
 
 
@@ -123,17 +138,37 @@ def _rows_of_estimates(ours: Sequence[Stream], theirs: Sequence[Stream]) -> list
     ]
 
 
-def _streams() -> list[list[Stream]]:
+def _row_of_filtering() -> Row:
+    """Return the row of an estimator that filters, in streams that are longer than its lag."""
+    relay, ours = _streams(FILTERED, starts=1, streams=LONG_STREAMS, count=LONG_COUNT)
+    rounds = whole_rounds(ours, relay)
+    ratio, lost = median_ratio(rounds, 'cpu'), sum(stream.lost for stream in ours)
+    return Row(
+        'estimator node, 500 Hz, `estimation:=filtering`, CPU per message; '
+        + said_of_losses(ours, relay, rounds),
+        'bare rclpy relay',
+        ratio,
+        '≤ 2.5 times, 0 lost',
+        ratio <= 2.5 and lost == 0,
+    )
+
+
+def _streams(
+    callees: Sequence[Callee] = CALLEES,
+    starts: int = STARTS,
+    streams: int = STREAMS,
+    count: int = COUNT,
+) -> list[list[Stream]]:
     """Return the streams to each program."""
-    streams: list[list[Stream]] = [[] for _ in CALLEES]
-    for _ in range(STARTS):
-        with _callers() as callers:
+    of_each: list[list[Stream]] = [[] for _ in callees]
+    for _ in range(starts):
+        with _callers(callees) as callers:
             for caller in callers:
                 caller.stream(RATE, WARM_UP)
-            new = in_turn([lambda c=caller: c.stream(RATE, COUNT) for caller in callers], STREAMS)
-        for known, of_program in zip(streams, new, strict=True):
+            new = in_turn([lambda c=caller: c.stream(RATE, count) for caller in callers], streams)
+        for known, of_program in zip(of_each, new, strict=True):
             known += of_program
-    return streams
+    return of_each
 
 
 def _highest_rates(guess: float) -> list[list[HighestRate]]:
@@ -145,10 +180,10 @@ def _highest_rates(guess: float) -> list[list[HighestRate]]:
 
 
 @contextmanager
-def _callers() -> Iterator[list[Caller]]:
+def _callers(callees: Sequence[Callee] = CALLEES) -> Iterator[list[Caller]]:
     """Run all programs, with a caller each."""
     with own_domain(), ExitStack() as stack:
-        yield [stack.enter_context(called(callee)) for callee in CALLEES]
+        yield [stack.enter_context(called(callee)) for callee in callees]
 
 
 def shares() -> dict[str, float]:

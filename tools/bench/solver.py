@@ -6,7 +6,14 @@ import dataclasses
 
 import numpy as np
 
-from tendon_statics import JointDesign, default_design_path, load_design, solve
+from tendon_statics import (
+    JointDesign,
+    Regime,
+    default_design_path,
+    load_design,
+    slip_angle_distribution,
+    solve,
+)
 from tendon_statics.physics import UPRIGHT, StickSlipTracker, paper, tensions_for
 from tendon_statics.physics.contact import CONTACT_LAWS
 from tendon_statics.physics.roots import refine
@@ -17,6 +24,9 @@ from .pairs import noisy_pairs
 from .rows import Row, at_least, at_most
 from .timing import best_times
 from .yardstick import Yardstick
+
+TENSION_STDDEV = 0.01
+"""N"""
 
 HELD = (1.0, 1.5)
 """Tensions in N at which the preliminary design is held at every angle"""
@@ -41,6 +51,7 @@ def rows() -> list[Row]:
     """Measure."""
     design = load_design(default_design_path())
     found = [*_all_fields(design), *_angle_and_pressure(design), _tracked(design)]
+    found.append(_distribution(design))
     # Last: Python adapts its bytecode to the one law that it has seen, as in any process.
     for law in list(CONTACT_LAWS)[1:]:
         found += _other_law(design, dataclasses.replace(design, contact_law=law))
@@ -115,6 +126,24 @@ def _angle_and_pressure(design: JointDesign) -> list[Row]:
         ),
         Row(ANGLE_AND_PRESSURE, f'{IN_C}, of the quartic', _beside_c(design, quartic, pairs)),
     ]
+
+
+def _distribution(design: JointDesign) -> Row:
+    def distribution() -> list[object]:
+        found = slip_angle_distribution(
+            design, paper.TENSION_L, paper.TENSION_S, tension_stddev=TENSION_STDDEV
+        )
+        return [*map(found.probability, Regime), found.interval(0.95)]
+
+    ours, alone = best_times(
+        [
+            _repeated(distribution),
+            _repeated(lambda: solve(design, paper.TENSION_L, paper.TENSION_S).as_dict()),
+        ],
+        rounds=200,
+    )
+    work = '`slip_angle_distribution`: the probability of each regime, and an interval'
+    return at_most(work, ALL_FIELDS, ours / alone, 5.0)
 
 
 def _other_law(design: JointDesign, other: JointDesign) -> list[Row]:

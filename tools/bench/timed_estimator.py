@@ -28,7 +28,7 @@ def main() -> int:
         (SingleThreadedExecutor, '_take_subscription', 'decode'),
         (ArraySource, '_take', 'decode'),
         (Estimator, '_on_reading', 'check and count'),
-        (UnitEstimator, '_result', 'solve'),
+        (UnitEstimator, '_followed', 'solve'),
         (Outputs, 'publish', 'build'),
         (Publisher, 'publish', 'publish'),
     ):

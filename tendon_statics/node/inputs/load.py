@@ -9,6 +9,7 @@ from typing import Any, Generic, TypeVar
 from geometry_msgs.msg import PoseStamped, WrenchStamped
 from sensor_msgs.msg import Imu
 
+from ...estimation.estimate import KnownLoad
 from ...estimation.orientation import (
     OrientationError,
     Vector,
@@ -17,7 +18,6 @@ from ...estimation.orientation import (
     turned,
 )
 from ...estimation.settings import Settings
-from ...estimation.unit_estimator import KnownLoad
 from ...physics import Load, LoadError
 from ..parameters.estimator import Wiring
 

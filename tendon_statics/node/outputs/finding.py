@@ -11,27 +11,16 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray, Header, String
 
-from ...estimation.settings import Settings
-from ...physics import Equilibrium, Regime
+from ...estimation.estimate import Estimate
+from ...physics import Regime
 from . import messages
 
 
 class Finding:
-    """What there is to say of one pair of tensions, worked out when it is asked for."""
+    """What there is to say of one pair of tensions, with a header for all that have one."""
 
-    def __init__(
-        self,
-        result: Equilibrium,
-        settings: Settings,
-        header: Header,
-        stamp: Callable[[], Time],
-        *,
-        load_assured: bool,
-    ) -> None:
-        self.result = result
-        self.load_assured = load_assured
-        self.design = settings.design
-        self.tension_stddev = settings.tension_stddev
+    def __init__(self, estimate: Estimate, header: Header, stamp: Callable[[], Time]) -> None:
+        self.estimate = estimate
         self._header = header
         self._stamp = stamp
 
@@ -41,16 +30,6 @@ class Finding:
         self._header.stamp = self._stamp()
         return self._header
 
-    @cached_property
-    def slip_margin(self) -> float | None:
-        """M / K at the bend angle; None where that is not determined."""
-        return self.result.slip_margin
-
-    @cached_property
-    def admissible_angles(self) -> list[tuple[float, float]]:
-        """Intervals in which friction can hold the unit; none while a cable is slack."""
-        return self.result.admissible_angles
-
 
 Fill = Callable[[Any, Finding], bool]
 
@@ -58,20 +37,20 @@ Fill = Callable[[Any, Finding], bool]
 
 
 def _fill_regime(message: String, finding: Finding) -> bool:
-    message.data = finding.result.regime.value
+    message.data = finding.estimate.regime.value
     return True
 
 
 def _fill_bend_angle(message: Float64, finding: Finding) -> bool:
-    return _fill_number(message, finding.result.bend_angle)
+    return _fill_number(message, finding.estimate.bend_angle)
 
 
 def _fill_joint_pressure(message: Float64, finding: Finding) -> bool:
-    return _fill_number(message, finding.result.pressure)
+    return _fill_number(message, finding.estimate.pressure)
 
 
 def _fill_slip_margin(message: Float64, finding: Finding) -> bool:
-    return _fill_number(message, finding.slip_margin)
+    return _fill_number(message, finding.estimate.slip_margin)
 
 
 def _fill_number(message: Float64, number: float | None) -> bool:
@@ -82,7 +61,7 @@ def _fill_number(message: Float64, number: float | None) -> bool:
 
 
 def _fill_joint_state(message: JointState, finding: Finding) -> bool:
-    angle = finding.result.bend_angle
+    angle = finding.estimate.bend_angle
     if angle is None:
         return False
     message.header = finding.header
@@ -91,31 +70,23 @@ def _fill_joint_state(message: JointState, finding: Finding) -> bool:
 
 
 def _fill_unit_pose(message: PoseWithCovarianceStamped, finding: Finding) -> bool:
-    angle = finding.result.bend_angle
-    stddev = finding.result.bend_angle_stddev(finding.tension_stddev)
+    angle = finding.estimate.bend_angle
+    stddev = finding.estimate.bend_angle_stddev
     if angle is None or stddev is None:
         return False
-    messages.fill_unit_pose(message, finding.design, angle, stddev, finding.header)
+    messages.fill_unit_pose(message, finding.estimate.design, angle, stddev, finding.header)
     return True
 
 
 def _fill_admissible_angles(message: Float64MultiArray, finding: Finding) -> bool:
-    if finding.result.regime is Regime.SLACK:
+    if finding.estimate.regime is Regime.SLACK:
         return False
-    messages.fill_intervals(message, finding.admissible_angles)
+    messages.fill_intervals(message, finding.estimate.admissible_angles)
     return True
 
 
 def _fill_estimate(message: messages.Estimate, finding: Finding) -> bool:
-    messages.fill_estimate(
-        message,
-        finding.result,
-        finding.slip_margin,
-        finding.admissible_angles,
-        finding.tension_stddev,
-        finding.header,
-        load_assured=finding.load_assured,
-    )
+    messages.fill_estimate(message, finding.estimate, finding.header)
     return True
 
 

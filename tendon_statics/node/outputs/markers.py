@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from itertools import pairwise
 
 from geometry_msgs.msg import Point
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
+from ...estimation.estimate import Estimate
 from ...estimation.regimes import REGIME_COLOURS, red_green_blue
-from ...physics import Equilibrium
 
 NAMESPACE = 'tendon_statics'
 UNIT, BAND, LABEL, GRAVITY, TIP_FORCE = range(5)
@@ -22,27 +21,25 @@ ARC_STEP = math.radians(2.0)
 GRAVITY_COLOUR, FORCE_COLOUR = (0.3, 0.3, 0.3), (0.8, 0.1, 0.1)
 
 
-def unit_markers(
-    result: Equilibrium, intervals: Sequence[tuple[float, float]], header: Header
-) -> MarkerArray:
+def unit_markers(estimate: Estimate, header: Header) -> MarkerArray:
     """Draw the unit at its angle, the angles at which friction can hold it, regime and load.
 
     What is not determined is not drawn, and taken away if it was. Lengths in m, in the joint
     frame: Z along the unit at zero bend, X towards cable s. So all is drawn tilted where the base
     is, if its frame is known to be; the arrow of gravity shows which direction was taken.
     """
-    design, load = result.design, result.load
+    design, load, intervals = estimate.design, estimate.load, estimate.admissible_angles
     length = 2.0 * max(abs(design.com_distance), design.ball_radius)
     along = math.copysign(1.0, design.com_distance)
-    colour = red_green_blue(REGIME_COLOURS[result.regime])
+    colour = red_green_blue(REGIME_COLOURS[estimate.regime])
     kinds = (UNIT, BAND, LABEL, GRAVITY, TIP_FORCE)
     markers = [_marker(kind, header) for kind in kinds]
     unit, band, label, gravity, tip_force = markers
 
-    if result.bend_angle is None:
+    if estimate.bend_angle is None:
         unit.action = Marker.DELETE
     else:
-        end = _on_arc(along * length, result.bend_angle)
+        end = _on_arc(along * length, estimate.bend_angle)
         _make_arrow(unit, Point(), end, 0.5 * design.ball_radius, colour)
 
     if not intervals:
@@ -56,7 +53,7 @@ def unit_markers(
         ]
 
     label.type = Marker.TEXT_VIEW_FACING
-    label.text = result.regime.value
+    label.text = estimate.regime.value
     label.pose.position.z = 1.3 * along * length
     label.scale.z = 0.5 * design.ball_radius
     label.color = _colour(colour, 1.0)
@@ -71,11 +68,11 @@ def unit_markers(
         GRAVITY_COLOUR,
     )
     force = math.hypot(*load.tip_force)
-    if result.bend_angle is None or not force > 0.0:
+    if estimate.bend_angle is None or not force > 0.0:
         tip_force.action = Marker.DELETE
     else:
         x, z = (0.7 * length * part / force for part in load.tip_force)
-        tip = _on_arc(load.tip_distance, result.bend_angle)
+        tip = _on_arc(load.tip_distance, estimate.bend_angle)
         start = Point(x=tip.x - x, z=tip.z - z)
         _make_arrow(tip_force, start, tip, 0.2 * design.ball_radius, FORCE_COLOUR)
     return MarkerArray(markers=markers)

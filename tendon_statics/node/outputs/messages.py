@@ -9,13 +9,16 @@ from typing import Any
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from std_msgs.msg import Float64MultiArray, Header, MultiArrayDimension
 
-from ...estimation.unit_estimator import KnownLoad
+from ...estimation.estimate import Estimate as UnitEstimate
+from ...estimation.estimate import KnownLoad
+from ...estimation.settings import Settings
 from ...physics import (
     BendAngleError,
     Equilibrium,
     JointDesign,
     Load,
     LoadError,
+    Regime,
     TensionGradient,
     UnreachableError,
     tensions_for,
@@ -50,6 +53,9 @@ else:
 
 
 _UNKNOWN_GRADIENT = TensionGradient(math.nan, math.nan)
+_UNKNOWN_INTERVAL = (math.nan, math.nan)
+_UNKNOWN_FORCES = (math.nan,) * 4
+_UNKNOWN_PROBABILITIES = dict.fromkeys(Regime, math.nan)
 
 
 def fill_intervals(
@@ -95,48 +101,42 @@ def fill_unit_pose(
     return message
 
 
-def fill_estimate(
-    message: Estimate,
-    result: Equilibrium,
-    margin: float | None,
-    intervals: Sequence[tuple[float, float]],
-    tension_stddev: float,
-    header: Header,
-    *,
-    load_assured: bool = True,
-) -> Estimate:
+def fill_estimate(message: Estimate, estimate: UnitEstimate, header: Header) -> Estimate:
     """Put all that is known from one pair of tensions into a message.
 
     It is NaN, False or 0 where it is not known, whatever was in the message before.
     """
-    forces = result.forces or (math.nan,) * 4
-    remainder = result.force_remainder or (math.nan,) * 2
-    angle_gradient = result.bend_angle_gradient or _UNKNOWN_GRADIENT
-    pressure_gradient = result.pressure_gradient or _UNKNOWN_GRADIENT
     message.header = header
-    message.regime = result.regime.value
-    message.tension_l = result.tension_l
-    message.tension_s = result.tension_s
-    message.bend_angle = _number(result.bend_angle)
-    message.bend_angle_stddev = angle_gradient.stddev(tension_stddev)
-    message.pressure = _number(result.pressure)
-    message.pressure_stddev = pressure_gradient.stddev(tension_stddev)
-    message.normal_force = _number(result.normal_force)
-    message.slip_margin = _number(margin)
+    message.regime = estimate.regime.value
+    message.tension_l, message.tension_s = estimate.tension_l, estimate.tension_s
+    message.bend_angle = _number(estimate.bend_angle)
+    message.bend_angle_stddev = _number(estimate.bend_angle_stddev)
+    message.bend_angle_low, message.bend_angle_high = estimate.interval or _UNKNOWN_INTERVAL
+    message.provisional = estimate.is_provisional
+    probabilities = estimate.regime_probabilities or _UNKNOWN_PROBABILITIES
+    message.probability_equilibrium = probabilities[Regime.EQUILIBRIUM]
+    message.probability_held = probabilities[Regime.HELD]
+    message.probability_slipping = probabilities[Regime.SLIPPING]
+    message.probability_driven_to_stop = probabilities[Regime.DRIVEN_TO_STOP]
+    message.probability_slack = probabilities[Regime.SLACK]
+    message.consistency = estimate.consistency
+    message.pressure = _number(estimate.pressure)
+    message.pressure_stddev = _number(estimate.pressure_stddev)
+    message.normal_force = _number(estimate.normal_force)
+    message.slip_margin = _number(estimate.slip_margin)
+    intervals = estimate.admissible_angles
     message.admissible_angles = [end for interval in intervals for end in interval]
-    if not result.is_tracked:
-        message.angle_assured = result.bend_angle is not None
-        message.root_count = result.root_count
-        message.stable = bool(result.stable)
-        message.iterations = result.iterations
-        message.residual = _number(result.residual)
-    else:
-        message.angle_assured = result.angle_assured
-        message.root_count = message.iterations = 0
-        message.stable = False
-        message.residual = math.nan
-    load = result.load
-    message.contact_law = result.design.contact_law
+    message.angle_assured = estimate.angle_assured
+    message.branch_consistent = bool(estimate.branch_consistent)
+    _fill_load(message, estimate)
+    _fill_exact(message, estimate.exact)
+    return message
+
+
+def _fill_load(message: Estimate, estimate: UnitEstimate) -> None:
+    """Put what was worked with into a message."""
+    load = estimate.load
+    message.contact_law = estimate.design.contact_law
     (
         message.gravity_direction_x,
         message.gravity_direction_y,
@@ -144,14 +144,33 @@ def fill_estimate(
     ) = load.gravity_direction
     message.tip_force_x, message.tip_force_z = load.tip_force
     message.tip_distance = load.tip_distance
-    message.load_assured = load_assured
-    message.branch_consistent = bool(result.branch_consistent)
+    message.load_assured = estimate.known.is_assured
+
+
+def _fill_exact(message: Estimate, exact: Equilibrium | None) -> None:
+    """Put into a message what there is where the tensions are believed as they are."""
+    if exact is not None and not exact.is_tracked:
+        message.root_count = exact.root_count
+        message.stable = bool(exact.stable)
+        message.iterations = exact.iterations
+        message.residual = _number(exact.residual)
+    else:
+        message.root_count = message.iterations = 0
+        message.stable = False
+        message.residual = math.nan
+    forces: Sequence[float] = _UNKNOWN_FORCES
+    remainder: Sequence[float] = _UNKNOWN_INTERVAL
+    angle_gradient = pressure_gradient = _UNKNOWN_GRADIENT
+    if exact is not None:
+        forces = exact.forces or forces
+        remainder = exact.force_remainder or remainder
+        angle_gradient = exact.bend_angle_gradient or angle_gradient
+        pressure_gradient = exact.pressure_gradient or pressure_gradient
     message.pressure_force_x, message.pressure_force_z = forces[:2]
     message.friction_force_x, message.friction_force_z = forces[2:]
     message.force_remainder_x, message.force_remainder_z = remainder
     message.bend_angle_by_tension_l, message.bend_angle_by_tension_s = angle_gradient
     message.pressure_by_tension_l, message.pressure_by_tension_s = pressure_gradient
-    return message
 
 
 def asked_load(request: Solve.Request, known: KnownLoad) -> KnownLoad:
@@ -177,7 +196,7 @@ def asked_load(request: Solve.Request, known: KnownLoad) -> KnownLoad:
 def fill_solve_response(
     response: Solve.Response,
     equilibrium: Equilibrium,
-    tension_stddev: float,
+    settings: Settings,
     *,
     load_assured: bool,
 ) -> Solve.Response:
@@ -186,7 +205,9 @@ def fill_solve_response(
     response.regime = equilibrium.regime.value
     response.bend_angle = _number(equilibrium.bend_angle)
     response.pressure = _number(equilibrium.pressure)
-    response.bend_angle_stddev = _number(equilibrium.bend_angle_stddev(tension_stddev))
+    response.bend_angle_stddev = _number(
+        equilibrium.bend_angle_stddev(settings.tension_stddev, settings.design_uncertainty)
+    )
     response.root_count = equilibrium.root_count
     response.stable = bool(equilibrium.stable)
     response.load_assured = load_assured

@@ -17,10 +17,11 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Header, String
 from visualization_msgs.msg import MarkerArray
 
-from ...estimation.settings import Settings
-from ...physics import Equilibrium
+from ...estimation.estimate import Estimate
 from ..overridable_qos import OVERRIDABLE
 from ..parameters.estimator import Wiring
+from . import messages
+from .committed import CommittedOutput
 from .finding import FILLS, Fill, Finding
 from .markers import no_markers, unit_markers
 
@@ -62,6 +63,10 @@ class Outputs:
                 output.message.name = [wiring.joint_name]
         self._regime = self._of_findings[0].publisher
         self._latched_regime = ''
+        self.committed: CommittedOutput | None = None
+        if wiring.estimation == 'filtering' and not messages.INTERFACES_MISSING:
+            publisher = self._publisher(messages.Estimate, '~/committed_estimate')
+            self.committed = CommittedOutput(publisher, wiring.frame_id)
         self._markers = self._publisher(MarkerArray, '~/markers') if wiring.markers else None
         self._next_drawing = 0.0
         self._diagnostics = self._publisher(DiagnosticArray, '/diagnostics')
@@ -77,28 +82,21 @@ class Outputs:
             event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
         )
 
-    def publish(
-        self,
-        result: Equilibrium,
-        settings: Settings,
-        stamp: Callable[[], Time],
-        *,
-        load_assured: bool,
-    ) -> None:
-        """Publish all of a result that is determined and that somebody listens to."""
-        finding = Finding(result, settings, self._header, stamp, load_assured=load_assured)
+    def publish(self, estimate: Estimate, stamp: Callable[[], Time]) -> None:
+        """Publish all of an estimate that is determined and that somebody listens to."""
+        finding = Finding(estimate, self._header, stamp)
         for publisher, message, fill in self._of_findings:
             # Of the handle itself, for a fifth of the time, since all are asked each time.
             if publisher.handle.get_subscription_count() > 0 and fill(message, finding):
                 publisher.publish(message)
-        self._latch_regime(result.regime.value)
+        self._latch_regime(estimate.regime.value)
         if (
             self._markers is not None
             and self._markers.handle.get_subscription_count() > 0
             and time.monotonic() >= self._next_drawing
         ):
             self._next_drawing = time.monotonic() + MARKER_PERIOD
-            self._markers.publish(unit_markers(result, finding.admissible_angles, finding.header))
+            self._markers.publish(unit_markers(estimate, finding.header))
 
     def say_regime(self, regime: str) -> None:
         """Publish what is said where there is no result, say ``stale``."""

@@ -10,6 +10,7 @@ from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.parameter import Parameter
 
 from ...estimation.settings import Settings
+from ...files.design_file import UNCERTAINTY
 from ...files.estimator_parameters import DESIGN
 from ...files.parameter_kinds import MisfitError, SettingError
 from ...files.unit_settings import check_parameters
@@ -81,7 +82,7 @@ class Changes:
         self, request: SetParameters.Request, response: SetParameters.Response
     ) -> SetParameters.Response:
         given = [Parameter.from_parameter_msg(message) for message in request.parameters]
-        design = [parameter for parameter in given if parameter.name.startswith(DESIGN)]
+        design = [of for of in given if of.name.startswith((DESIGN, UNCERTAINTY))]
         self._is_one_by_one = True
         try:
             of_design = self.set_together(design)

@@ -10,7 +10,7 @@ from rclpy.exceptions import InvalidParameterValueException
 from rclpy.node import Node
 from rclpy.parameter import Parameter as ROSParameter
 
-from ...files.parameter_kinds import NumberParameter, Parameter
+from ...files.parameter_kinds import ListParameter, NumberParameter, Parameter
 
 
 def declare(node: Node, parameter: Parameter) -> Any:
@@ -26,6 +26,8 @@ def declare(node: Node, parameter: Parameter) -> Any:
     default = list(parameter.default) if _is_sequence(parameter) else parameter.default
     # rclpy has no public view of overrides. `1` for a double would make it an integer.
     given = node._parameter_overrides.get(name)
+    if given is None and isinstance(parameter, ListParameter):
+        given = ROSParameter(name, value=default)
     if given is not None:
         node._parameter_overrides[name] = converted(parameter, given)
     try:
@@ -45,6 +47,11 @@ def converted(parameter: Parameter, given: ROSParameter) -> ROSParameter:
     if given.type_ == ROSParameter.Type.NOT_SET:
         return given
     value = parameter.converted(given.value)
+    if isinstance(parameter, ListParameter) and value == []:  # which has no type by itself
+        array = ROSParameter.Type.DOUBLE_ARRAY
+        return ROSParameter(
+            given.name, array if parameter.of_numbers else ROSParameter.Type.STRING_ARRAY, value
+        )
     return given if value is given.value else ROSParameter(given.name, value=value)
 
 

@@ -11,7 +11,7 @@ from rclpy.parameter import Parameter as ROSParameter
 
 from ...estimation.settings import Settings
 from ...files.design_file import default_design_path, load_design
-from ...files.estimator_parameters import DESIGN, NUMBERS, VECTORS, WIRING, design_table
+from ...files.estimator_parameters import CHANGEABLE, DESIGN, WIRING, design_table
 from ...files.parameter_kinds import Parameter, SettingError
 from ...files.unit_settings import settings_from
 from ...physics import DesignError, JointDesign, design_fields
@@ -100,7 +100,8 @@ def read_settings(node: Node, changes: Iterable[Any] = ()) -> Settings:
     SettingError
         If the whole is not valid.
     """
-    return settings_from(read_all(node, _changeable(), changes))
+    values = read_all(node, _changeable(), changes)
+    return settings_from({**values, 'estimation': node.get_parameter('estimation').value})
 
 
 def in_its_type(given: ROSParameter) -> ROSParameter:
@@ -117,4 +118,4 @@ def _by_name() -> dict[str, Parameter]:
 @cache
 def _changeable() -> tuple[Parameter, ...]:
     """All that may be set again."""
-    return (*design_table(load_design(default_design_path())), *NUMBERS, *VECTORS)
+    return (*design_table(load_design(default_design_path())), *CHANGEABLE)

@@ -45,7 +45,10 @@ class Samples(Protocol):
 
     @property
     def state(self) -> Sequence[str] | None:
-        """``slipping``, ``held`` or anything else; None: every sample is slipping."""
+        """``slipping``, ``held`` or anything else.
+
+        None: every sample is slipping, unless they follow each other in time.
+        """
 
     @property
     def time(self) -> ArrayLike | None:

@@ -18,6 +18,7 @@ from .boundary_distance import BoundaryDistance, Noise, boundary_distance
 from .measured import Samples
 from .parameters import Model
 from .result import HELD, SLIPPING
+from .sessions import follow_each_other
 
 AT_STOP = 3.0
 """Standard deviations of the angle within which a unit at rest is taken to be at its stop"""
@@ -71,11 +72,12 @@ class SortedSamples:
     ) -> None:
         if data.bend_angle is None:
             raise CalibrationError('there is no measured bend angle in the data')
-        if data.state is None and data.time is not None:
+        why = '' if data.state is not None else follow_each_other(data)
+        if why:
             raise CalibrationError(
-                'the samples follow each other in time, but have no state that says which of them '
-                'are slipping: take it from the motions of the angle (mark_motion), or say that '
-                'all are (the state slipping)'
+                f'the samples follow each other in time, as {why}, but have no state that says '
+                'which of them are slipping: take it from the motions of the angle (mark_motion), '
+                'or say that all are (the state slipping)'
             )
         self.noise = noise
         self.tension_l = as_floats(data.tension_l)

@@ -42,6 +42,7 @@ class ElasticSeatLaw(ContactLaw):
         self.zone = zone
         self.coupling = zone.coupling
         self.tilting = friction_coefficient * zone.axial_friction
+        self.swing = math.hypot(1.0, self.tilting)
         self.divisor = 1.0 + self.coupling * friction_coefficient**2
         self.gain = friction_coefficient * zone.lever / self.divisor
         self.circle = FrictionCircleLaw(friction_coefficient, start_angle, end_angle)
@@ -91,7 +92,7 @@ class LoadedElasticSeatLaw(LoadedLaw):
         numbers, gain = self._numbers, self._law.gain
         _, _, seat, seat_by_tilt, *circle = one
         _, _, other_seat, other_seat_by_tilt, *other_circle = other
-        amplitude = gain * self._share * math.hypot(1.0, self._law.tilting)
+        amplitude = gain * self._share * self._law.swing
         least, greatest = wave_bounds(
             numbers,
             *(seat_by_tilt, gain - seat),

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from typing import Any
 
 from .numbers import Numbers
@@ -107,6 +108,9 @@ class ContactLaw(ABC):
     fits: str
     """The construction that the law is for, in a few words"""
 
+    is_stacked = False
+    """Whether its numbers are arrays, of many designs; see `stacked_design`"""
+
     carries_more_than_cables: bool = True
     """Whether a dead load beyond the cable tensions, |P| ≥ T, can be carried while it presses"""
 
@@ -139,3 +143,19 @@ class ContactLaw(ABC):
         """
         half_span = 0.5 * (self.end_angle - self.start_angle)
         return 2.0 * ball_radius * math.sin(half_span) * contact_width
+
+
+def map_arrays(value: Any, change: Callable[[Any], Any]) -> Any:
+    """Return a value with a function applied to each array in it, within tuples and laws too."""
+    if getattr(value, 'ndim', 0):
+        return change(value)
+    if isinstance(value, tuple):
+        parts = [map_arrays(part, change) for part in value]
+        return type(value)(*parts) if hasattr(value, '_fields') else tuple(parts)
+    if isinstance(value, ContactLaw) and value.is_stacked:
+        changed = object.__new__(type(value))
+        changed.__dict__ = {
+            name: map_arrays(part, change) for name, part in value.__dict__.items()
+        }
+        return changed
+    return value

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..array_numbers import ARRAYS
+from ..contact.law import map_arrays
 from ..design import JointDesign
 from ..load import DeadLoad
 from ..roots import refine
 from ..slip import ROUNDING, LoadedJoint, Slip
+from ..stacked_design import StackedDesign
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -21,79 +25,113 @@ STILL = 1e-9
 """Step in rad after which the next is not worth taking"""
 
 
-def slips_of(design: JointDesign, dead: DeadLoad, tensions: Floats) -> Slip:
-    """Return the slip functions towards cable s of arrays of tensions.
+def slips_of(
+    units: JointDesign | StackedDesign, dead: DeadLoad, tensions: Floats, side: float
+) -> Slip:
+    """Return the slip functions to one side of arrays of tensions.
 
     Parameters
     ----------
+    units : JointDesign or StackedDesign
+        Of all members, or one of each.
+    dead : DeadLoad
+        Of shapes that broadcast to that of the tensions.
     tensions : ndarray
-        T_l and T_s in N, shape ``(2, …)``; where they do not seat the joint the result is NaN.
+        T_l and T_s in N, shape ``(2, pairs, members)``; where they do not seat the joint the
+        result is NaN.
     """
     tension_l, tension_s = tensions
-    taut = (tension_l > 0.0) & (tension_s > 0.0)
-    joint = LoadedJoint.of(design, dead)
-    excess = np.where(taut, tension_l + tension_s - joint.size, np.nan)
-    excess = np.where(excess > 0.0, excess, np.nan)
-    return Slip(joint, excess, tension_l, tension_s, numbers=ARRAYS)
+    joint = LoadedJoint.of(units, dead)
+    if isinstance(units, StackedDesign) or not isinstance(joint.size, float):
+        # All arrays of one shape, so that parts can be taken.
+        shape = tension_l.shape
+        joint = map_arrays(
+            joint._replace(size=np.asarray(joint.size) + np.zeros(shape)),
+            lambda values: np.broadcast_to(values, shape),
+        )
+    excess = tension_l + tension_s - joint.size
+    seated = np.minimum(np.minimum(tension_l, tension_s), excess) > 0.0
+    if not seated.all():
+        excess = np.where(seated, excess, np.nan)
+    return Slip(joint, excess, tension_l, tension_s, side, ARRAYS)
+
+
+def towards(slips: Slip, side: float) -> Slip:
+    """Return slip functions towards cable s for a side of 1, towards cable l for −1."""
+    if isinstance(slips.side, float):
+        return slips if slips.side == side else slips.mirrored()
+    return slips.facing(side * slips.side)
 
 
 class Step:
-    """One pair of tensions of every member: where it drives them.
+    """Pairs of tensions of every member: where they drive them.
+
+    Parameters
+    ----------
+    slips : Slip
+        The slip functions, best to the side to which most are driven.
+    angles : ndarray
+        Where the members are in rad.
+    stop : float or ndarray
+        θ_max in rad, of all or of each.
 
     Attributes
     ----------
-    side : ndarray
-        To which side each is driven, 1 or −1.
+    slips : Slip
+        The slip functions, each towards the side to which it drives.
+    probe : Probe
+        Them at the angles of the members.
     moves : ndarray
         Whether friction cannot hold it where it was.
+    pressed : ndarray
+        Whether it is driven on against a stop.
     """
 
-    def __init__(self, slips: Slip, angles: Floats, stop: float) -> None:
-        probe = slips.probe(angles)
-        self.side = np.where(probe[5] < 0.0, -1.0, 1.0)
-        if np.any(self.side < 0.0):
-            slips = slips.facing(self.side)
-            probe = slips.probe(self.side * angles)
-        self.slips = slips
-        """The slip functions, each towards the side to which it drives"""
-        self.probe = probe
-        """Them at the angles of the members"""
+    def __init__(self, slips: Slip, angles: Floats, stop: Any) -> None:
+        probe = slips.probe(slips.side * angles)
+        back = probe[5] < 0.0
+        if back.any():
+            slips = slips.facing(np.where(back, -1.0, 1.0))
+            probe = slips.probe(slips.side * angles)
+        self.slips, self.probe = slips, probe
         self.moves: Flags = probe[5] > probe[8][0] * (1.0 + ROUNDING)
-        self.pressed: Flags = self.moves & (self.side * angles >= stop)
-        """Whether it is driven on against a stop"""
+        self.pressed: Flags = self.moves & (slips.side * angles >= stop)
+
+    @property
+    def side(self) -> Floats:
+        """To which side each is driven, 1 or −1."""
+        return np.broadcast_to(self.slips.side, self.moves.shape)
 
 
-def follow(design: JointDesign, slips: Slip, angles: Floats) -> tuple[Floats, Flags]:
+def follow(slips: Slip, angles: Floats, stop: Any) -> Floats:
     """Follow members through the pairs of a path, one after another.
 
     Parameters
     ----------
     slips : Slip
-        The slip functions towards cable s, arrays of shape ``(pairs, members)``.
+        The slip functions, arrays of shape ``(pairs, members)``.
     angles : ndarray
         Where the members are at first, in rad.
+    stop : float or ndarray
+        θ_max in rad, of all or of each.
 
     Returns
     -------
-    tuple
-        Where they are at the end, and which of them moved at the last pair.
+    ndarray
+        Where they are at first and after each pair, shape ``(pairs + 1, members)``.
     """
-    stop = design.max_bend_angle
     whole = Step(slips, angles, stop)
     driven = whole.moves & ~whole.pressed
     if not driven.any():
-        return angles, np.zeros(len(angles), np.bool_)
-    first = int(np.argmax(driven.any(axis=1)))
-    slips, sides = slips.part(slice(first, None)), np.unique(whole.side[driven])
+        return np.broadcast_to(angles, (len(driven) + 1, len(angles)))
+    sides = np.unique(whole.side[driven])
     path = _pushed(slips, angles, stop, sides)
     if path is None and len(sides) == 1:
         path = _pushed(slips, angles, stop, np.array([-1.0, 1.0]))
-    if path is None:
-        path = _stepped(design, slips, angles)
-    return path[-1], path[-1] != path[-2]
+    return _stepped(slips, angles, stop) if path is None else path
 
 
-def _pushed(slips: Slip, angles: Floats, stop: float, sides: Floats) -> Floats | None:
+def _pushed(slips: Slip, angles: Floats, stop: Any, sides: Floats) -> Floats | None:
     """Follow members that a path pushes ahead of it, whose slip functions fall with the angle.
 
     Each pair then holds one interval of angles, and a member outside is pushed to its end: the
@@ -102,20 +140,18 @@ def _pushed(slips: Slip, angles: Floats, stop: float, sides: Floats) -> Floats |
     Returns
     -------
     ndarray or None
-        Where they are at first and after each pair, shape ``(pairs + 1, members)``; None where
-        the functions do not all fall, or members are pushed to a side that is not among `sides`.
+        As `follow` does; None where the functions do not all fall, or members are pushed to a
+        side that is not among `sides`.
     """
     ends = []
-    for side in sides:
-        facing = slips.facing(side)
-        low = max(float((side * angles).min()), -stop)
+    for side in sides.tolist():
+        facing = towards(slips, side)
+        low = float((side * angles).min())
         _, greatest = facing.slope_bounds(facing.probe(low), facing.probe(stop))
         if not np.all((greatest < 0.0) | np.isnan(greatest)):
             return None
-        ends.append(
-            side
-            * _root_of_falling(facing, np.broadcast_to(side * angles, greatest.shape), low, stop)
-        )
+        start = np.broadcast_to(side * angles, greatest.shape)
+        ends.append(side * _root_of_falling(facing, start, low, stop))
     path = [angles]
     for row in range(len(ends[0])):
         angles = path[-1]
@@ -123,64 +159,65 @@ def _pushed(slips: Slip, angles: Floats, stop: float, sides: Floats) -> Floats |
             angles = np.fmax(angles, end[row]) if side > 0.0 else np.fmin(angles, end[row])
         path.append(angles)
     found = np.array(path)
-    if len(sides) == 1:
+    if len(sides) == 1 and np.any(facing.moment_at(side * found[1:]) < 0.0):
         after = Step(slips, found[1:], stop)
-        if np.any(after.moves & ~after.pressed & (after.side != sides[0])):
+        if np.any(after.moves & ~after.pressed & (after.side != side)):
             return None
     return found
 
 
-def _root_of_falling(slips: Slip, place: Floats, lowest: float, stop: float) -> Floats:
+def _root_of_falling(slips: Slip, place: Floats, lowest: float, stop: Any) -> Floats:
     """Roots of falling functions, ahead; the ends of the range where there is none within."""
     low, high = np.full(place.shape, lowest), np.full(place.shape, stop)
     for _ in range(NEWTON_STEPS):
         _, excess, slope, *_ = slips.probe(place)
-        low, high = np.where(excess > 0.0, place, low), np.where(excess > 0.0, high, place)
+        below = excess > 0.0
+        low, high = np.where(below, place, low), np.where(below, high, place)
         # Beyond an end Newton's step is cut there, and the function's sign there ends it.
-        ahead = np.clip(place - excess / slope, low, high)
-        still = np.nanmax(np.abs(ahead - place), initial=0.0) < STILL
+        ahead = np.minimum(np.maximum(place - excess / slope, low), high)
+        still = np.abs(ahead - place) < STILL
         place = ahead
-        if still:
+        if (still | np.isnan(ahead)).all():
             break
     return place
 
 
-def _stepped(design: JointDesign, slips: Slip, angles: Floats) -> Floats:
-    """Follow members pair by pair; as `_pushed` returns it."""
-    stop = design.max_bend_angle
+def _stepped(slips: Slip, angles: Floats, stop: Any) -> Floats:
+    """Follow members pair by pair; as `follow` does."""
     path = [angles]
     for index in range(len(slips.total)):
-        row = slips.part(index)
-        step = Step(row, angles, stop)
+        step = Step(slips.part(index), angles, stop)
         moved = step.moves & ~step.pressed
         if moved.any():
             angles = angles.copy()
-            angles[moved] = _landings(design, row, step.side, angles, moved)
+            landings = _landings(step.slips.part(moved), angles[moved], _of(stop, moved))
+            angles[moved] = landings
         path.append(angles)
     return np.array(path)
 
 
-def _landings(
-    design: JointDesign, slips: Slip, side: Floats, angles: Floats, which: Flags
-) -> Floats:
-    """Where those members come to rest that are driven on: the first root ahead, or the stop."""
-    stop = design.max_bend_angle
-    facing = slips.part(which).facing(side[which])
-    start = side[which] * angles[which]
-    at_stop = facing.probe(stop)
-    least, greatest = facing.slope_bounds(facing.probe(float(start.min())), at_stop)
+def _of(stop: Any, which: Flags) -> Any:
+    return stop[which] if isinstance(stop, np.ndarray) else stop
+
+
+def _landings(slips: Slip, angles: Floats, stop: Any) -> Floats:
+    """Where members come to rest that are driven on: the first root ahead, or the stop."""
+    start = slips.side * angles
+    lowest = float(start.min())
+    at_stop = slips.probe(stop)
+    least, greatest = slips.slope_bounds(slips.probe(lowest), at_stop)
     landing = np.full(len(start), stop)
     # Falling all the way: one root, or none before the stop. Rising: none.
     falling = greatest < 0.0
-    rooted = np.flatnonzero(falling & (at_stop[1] < 0.0))
-    if len(rooted):
+    rooted = falling & (at_stop[1] < 0.0)
+    if rooted.any():
         landing[rooted] = _root_of_falling(
-            facing.part(rooted), start[rooted], float(start.min()), stop
+            slips.part(rooted), start[rooted], lowest, _of(stop, rooted)
         )
     for index in np.flatnonzero(~falling & ~(least > 0.0)):
-        one = facing.one(int(index))
-        found = one.brackets(one.probe(float(start[index])), one.probe(stop))
+        one = slips.one(int(index))
+        found = one.brackets(one.probe(float(start[index])), one.probe(float(landing[index])))
         if found:
             landing[index] = refine(one, found[0])[0][0]
-    landings: Floats = side[which] * landing
+    landings: Floats = slips.side * landing
     return landings

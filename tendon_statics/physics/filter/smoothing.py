@@ -5,9 +5,18 @@ the mean of the samples for a signal at rest, and before and after with a straig
 that moves. Wider ones have the smaller standard error, and are wrong where the signal bends within
 them. So of each kind the widest is taken with which the confidence intervals of all narrower ones
 still have a point in common (the rule of intersecting confidence intervals: Goldenshluger and
-Nemirovski, 1997; Katkovnik, 1999, with windows to one side). Of the five the one with the smallest
-standard error is the estimate. Next to a corner that is a window that ends there: the mean of a
-rest right after a step is as good as in its midst.
+Nemirovski, 1997; Katkovnik, 1999, with windows to one side). By that rule bias may grow to twice
+the standard error before it is noticed. So the estimate is the window one size narrower, where a
+bias is a quarter of that or a half; and its error is the standard error together with the distance
+between the two, which tells of the bias that is left. Of the five kinds the one with the smallest
+error is taken. Next to a corner that is a window that ends there: the mean of a rest right after a
+step is as good as in its midst.
+
+A line that comes up to a corner is believed for a little too long, since a few samples beyond it
+do not tell; and a unit would be carried along by a ramp that is seen to go on. But a signal does
+not jump. So where windows before and after a place say different things, it bends between two
+straight pieces that meet, and is the lower of the two where it bends down, the higher where it
+bends up.
 
 Samples are counted, not timed: they are taken to follow each other at a steady rate.
 """
@@ -15,7 +24,7 @@ Samples are counted, not timed: they are taken to follow each other at a steady 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +42,9 @@ CONFIDENCES = np.array([4.0, 4.0, 3.5, 3.0, 2.5, 2.25, 2.0, 2.0, 2.0])
 more narrow windows in a second, so that chance has the more to offer: a rest is not to be torn
 apart by the one sample in thousands that lies far out"""
 
-_AROUND, _BEFORE, _AFTER, _LINE_BEFORE, _LINE_AFTER = range(5)
+_AROUND, _LINES = 0, slice(3, 5)
+"""Kinds of windows: around, before, after, and lines before and after"""
+_MEAN_KINDS, _LINE_KINDS = np.array([[1], [2]]), np.array([[3], [4]])
 
 
 class Estimate(NamedTuple):
@@ -41,7 +52,7 @@ class Estimate(NamedTuple):
 
     value: Floats
     error: Floats
-    """Standard error in units of the standard deviation of a sample"""
+    """Standard error, in the unit of the samples"""
 
 
 class Windows:
@@ -56,42 +67,50 @@ class Windows:
     """
 
     def __init__(self, count: int, ages: NDArray[np.intp]) -> None:
-        place = (count - 1 - ages)[:, None]
-        after, before = ages[:, None], place
-        full, half = SIZES - 1, (SIZES - 1) // 2
-        nothing = np.zeros_like(place + full)
-        reach = np.array(
-            [
-                [half + nothing, half + nothing],
-                [full + nothing, nothing],
-                [nothing, full + nothing],
-                [full + nothing, nothing],
-                [nothing, full + nothing],
-            ]
-        )  # kind, side, place, size
-        left, right = reach[:, 0], reach[:, 1]
-        there = (left <= before) & (right <= after)
-        there[_AROUND] &= SIZES % 2 == 1
-        there[[_LINE_BEFORE, _LINE_AFTER]] &= SIZES >= 3
-        there[:, :, 0] = True  # the sample itself
+        place = count - 1 - ages
+        sizes = SIZES[:, None]
+        full, half = sizes - 1, (sizes - 1) // 2
+        nothing = np.zeros_like(full)
+        # size, kind, place
+        left = np.stack([half, full, nothing, full, nothing], axis=1) + 0 * ages
+        right = np.stack([half, nothing, full, nothing, full], axis=1) + 0 * ages
+        there = (left <= place) & (right <= ages)
+        there[:, _AROUND] &= sizes % 2 == 1
+        there[:, _LINES] &= sizes[..., None] >= 3
+        there[0] = True  # the sample itself
         left, right = np.where(there, left, 0), np.where(there, right, 0)
-        self._first = place - left
-        self._end = place + right + 1
-        size = (self._end - self._first).astype(float)
+        first, end = place - left, place + right + 1
+        size = (end - first).astype(float)
+        middle = 0.5 * (first + end - 1)
         lined = np.zeros(size.shape, bool)
-        lined[[_LINE_BEFORE, _LINE_AFTER]] = size[[_LINE_BEFORE, _LINE_AFTER]] >= 3
-        middle = 0.5 * (self._first + self._end - 1)
+        lined[:, _LINES] = size[:, _LINES] >= 3
         offset = np.where(lined, place - middle, 0.0)
-        spread = size * (size * size - 1.0) / 12.0  # Σ (k − middle)²
-        spread[size < 2] = 1.0
-        self._middle = middle
-        self._size = size
-        self._tilt = offset / spread
-        error = np.sqrt(1.0 / size + offset * offset / spread)
-        self._error = np.where(there, error, np.inf)
-        self._half_width = CONFIDENCES * self._error
-        self._kinds, self._places = np.ogrid[0:5, 0 : len(ages)]
-        self._place_numbers = np.arange(len(ages))
+        spread = np.where(size > 1, size * (size * size - 1.0) / 12.0, 1.0)  # Σ (k − middle)²
+        tilt = offset / spread
+        # A value takes so much of the sum over the window and of that of samples times numbers,
+        self._of_sums = np.array([1.0 / size - tilt * middle, tilt])
+        # and the slope of a line so much.
+        self._slope_of_sums = (
+            np.where(lined, 1.0 / spread, 0.0) * np.array([-middle, 1.0 + 0.0 * middle])
+        ).reshape(2, -1)
+        self._first, self._end = first, end
+        error = np.where(there, np.sqrt(1.0 / size + offset * tilt), np.inf)
+        self._half_width = CONFIDENCES[:, None, None] * error
+        self._numbers = np.arange(count)
+
+        # Where the n narrowest sizes agree: the widest of them that is there, and that before.
+        widest = np.zeros((len(SIZES) + 1, *there.shape[1:]), np.intp)
+        taken = widest.copy()
+        for number, is_there in enumerate(there):
+            widest[number + 1] = np.where(is_there, number, widest[number])
+            taken[number + 1] = np.where(is_there, widest[number], taken[number])
+        self._kinds, self._places = np.ogrid[0 : taken.shape[1], 0 : taken.shape[2]]
+        self._widest, self._taken = (
+            np.ravel_multi_index((one, self._kinds, self._places), size.shape)
+            for one in (widest, taken)
+        )
+        self._at = self._places[0]
+        self._error = error.reshape(-1)
 
     def estimate(self, samples: Floats, stddev: float) -> Estimate:
         """Estimate signals at the places.
@@ -108,29 +127,57 @@ class Windows:
         Estimate
             Of shape ``(signals, places)``.
         """
+        signals, count = samples.shape
         base = samples[:, -1:]
+        sums = np.zeros((2, signals, count + 1))
         centred = samples - base
-        numbers = np.arange(samples.shape[1])
-        sums = np.zeros((2, samples.shape[0], samples.shape[1] + 1))
         np.cumsum(centred, axis=1, out=sums[0, :, 1:])
-        np.cumsum(centred * numbers, axis=1, out=sums[1, :, 1:])
-        total, moment = sums[:, :, self._end] - sums[:, :, self._first]
-        value: Any = total / self._size + self._tilt * (moment - self._middle * total)
+        np.cumsum(centred * self._numbers, axis=1, out=sums[1, :, 1:])
+        within = sums.take(self._end, axis=-1)
+        within -= sums.take(self._first, axis=-1)
+        value = within[0] * self._of_sums[0]
+        value += within[1] * self._of_sums[1]
+        # Of each kind, up to which size the intervals have a point in common.
         half_width = stddev * self._half_width
-        # Of each kind, how far the intervals have a point in common, from narrow to wide.
-        with np.errstate(invalid='ignore'):
-            lowest = np.maximum.accumulate(value - half_width, axis=-1)
-            highest = np.minimum.accumulate(value + half_width, axis=-1)
-        agreeing = np.logical_and.accumulate(lowest <= highest, axis=-1)
-        error = np.where(agreeing, self._error, np.inf)
-        shape = (samples.shape[0], len(self._place_numbers), -1)
-        error = np.moveaxis(error, 1, 2).reshape(shape)
-        value = np.moveaxis(value, 1, 2).reshape(shape)
-        best = np.argmin(error, axis=-1)[..., None]
-        return Estimate(
-            np.take_along_axis(value, best, -1)[..., 0] + base,
-            stddev * np.take_along_axis(error, best, -1)[..., 0],
-        )
+        lowest = np.maximum.accumulate(value - half_width, axis=1)
+        highest = np.minimum.accumulate(value + half_width, axis=1)
+        agreeing = (lowest <= highest).sum(axis=1)
+        taken = self._taken[agreeing, self._kinds, self._places]
+        widest = self._widest[agreeing, self._kinds, self._places]
+        series = np.arange(signals)[:, None]
+        values = value.reshape(signals, -1)
+        value = values[series[..., None], taken]
+        error = np.hypot(stddev * self._error[taken], values[series[..., None], widest] - value)
+        which = series, self._best(within.reshape(2, signals, -1), taken, value, error), self._at
+        return Estimate(value[which] + base, error[which])
+
+    def _best(
+        self, within: Floats, taken: NDArray[np.intp], value: Floats, error: Floats
+    ) -> NDArray[np.intp]:
+        """Return which kind of window is taken at each place.
+
+        Parameters
+        ----------
+        within : ndarray
+            Sums over all windows, shape ``(2, signals, windows)``.
+        taken, value, error : ndarray
+            Of each kind the window, and what it says, shape ``(signals, kinds, places)``.
+        """
+        ends, lines = slice(1, 3), taken[:, _LINES]
+        # Before and after the place, whichever of mean and line is the surer.
+        lined = error[:, _LINES] < error[:, ends]
+        sure = np.where(lined, error[:, _LINES], error[:, ends])
+        says = np.where(lined, value[:, _LINES], value[:, ends])
+        of_sums, series = self._slope_of_sums, np.arange(len(value))[:, None, None]
+        slope = within[0][series, lines] * of_sums[0].take(lines)
+        slope += within[1][series, lines] * of_sums[1].take(lines)
+        slope *= lined
+        change, bend = says[:, 1] - says[:, 0], slope[:, 1] - slope[:, 0]
+        kinds = np.where(lined, _LINE_KINDS, _MEAN_KINDS)
+        met = np.where((change > 0.0) == (bend < 0.0), kinds[:, 0], kinds[:, 1])
+        corner = (change * change > (sure * sure).sum(axis=1)) & (bend != 0.0)
+        best: NDArray[np.intp] = np.where(corner, met, error.argmin(axis=1))
+        return best
 
 
 class SampleBuffer:

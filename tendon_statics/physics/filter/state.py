@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import math
 from functools import cached_property
 
 import numpy as np
@@ -9,9 +11,9 @@ from numpy.typing import NDArray
 
 from ..design import JointDesign
 from ..load import Load
-from ..slip import Slip
 from ..state import Regime
 from ..tensions import Tensions
+from .ensemble import Ensemble
 from .members import Step
 
 Floats = NDArray[np.float64]
@@ -34,6 +36,8 @@ class FilterState:
         Whether it may be taken back when more samples have come.
     angle_assured : bool
         False once a cable has been slack, until a stop, a measurement or a reset.
+    consistency : float
+        As `StickSlipFilter.consistency` then.
     """
 
     def __init__(
@@ -45,9 +49,11 @@ class FilterState:
         *,
         angles: Floats,
         moved: NDArray[np.bool_],
-        slips: Slip | None,
+        ensemble: Ensemble | None,
+        member_tensions: Floats,
         provisional: bool,
         angle_assured: bool,
+        consistency: float = math.nan,
     ) -> None:
         self.design = design
         self.load = load
@@ -55,9 +61,11 @@ class FilterState:
         self.tension_l, self.tension_s = tensions
         self.provisional = provisional
         self.angle_assured = angle_assured
+        self.consistency = consistency
         self._angles = angles
         self._moved = moved
-        self._slips = slips
+        self._ensemble = ensemble
+        self._member_tensions = member_tensions
 
     @classmethod
     def slack(
@@ -69,10 +77,20 @@ class FilterState:
             *(design, load, time, tensions),
             angles=nobody,
             moved=nobody > 0.0,
-            slips=None,
+            ensemble=None,
+            member_tensions=np.empty((2, 0)),
             provisional=True,
             angle_assured=False,
         )
+
+    def measured(self, angles: Floats) -> FilterState:
+        """The same with the angles of the members that a measurement has told, to be kept."""
+        found = copy.copy(self)
+        for name in ('members', '_step', 'regime_probabilities', '_pressures'):
+            found.__dict__.pop(name, None)
+        found._angles = angles
+        found.provisional, found.angle_assured = False, True
+        return found
 
     @cached_property
     def members(self) -> Floats:
@@ -96,7 +114,7 @@ class FilterState:
         Parameters
         ----------
         level : float
-            Between 0 and 1. The extreme members are as far as it goes.
+            Between 0 and 1. The extreme members, 95 %, are as far as it goes.
 
         Raises
         ------
@@ -107,20 +125,21 @@ class FilterState:
             raise ValueError(f'level is {level!r}, allowed is between 0 and 1')
         if not len(self.members):
             return None
-        # The i-th of n members stands for the probabilities from i/n to (i+1)/n.
-        outside = int(0.5 * (1.0 - level) * len(self.members))
-        return float(self.members[outside]), float(self.members[-1 - outside])
+        # The truth is as likely as any of n members to be the i-th of these n + 1.
+        outside = max(int(0.5 * (1.0 - level) * (len(self.members) + 1) + 1e-9), 1)
+        return float(self.members[outside - 1]), float(self.members[-outside])
 
     @cached_property
     def _step(self) -> Step:
-        assert self._slips is not None
-        return Step(self._slips, self._angles, self.design.max_bend_angle)
+        assert self._ensemble is not None
+        slips = self._ensemble.slips(self._member_tensions[:, None], [self.load])
+        return Step(slips.part(0), self._angles, self._ensemble.stop)
 
     @cached_property
     def regime_probabilities(self) -> dict[Regime, float]:
         """Probability of each regime; they add up to 1."""
         found = dict.fromkeys(Regime, 0.0)
-        if self._slips is None:
+        if self._ensemble is None:
             found[Regime.SLACK] = 1.0
             return found
         pressed = self._step.pressed
@@ -137,7 +156,7 @@ class FilterState:
     @cached_property
     def _pressures(self) -> Floats:
         """Pressure of each member in Pa, NaN where the model does not stand behind it."""
-        if self._slips is None:
+        if self._ensemble is None:
             return np.empty(0)
         with np.errstate(all='ignore'):
             slips, probe = self._step.slips, self._step.probe
@@ -146,7 +165,7 @@ class FilterState:
             normal = slips.law.normal(state, friction)
             *_, consistent = slips.law.contact(state, friction, normal)
             force = np.where(consistent, slips.total * normal, np.nan)
-        pressures: Floats = force / self.design.contact_area
+        pressures: Floats = force / self._ensemble.units.contact_area
         return pressures
 
     @property

@@ -5,31 +5,26 @@ from __future__ import annotations
 import bisect
 import math
 from collections import deque
-from dataclasses import dataclass
-from statistics import NormalDist
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..admissible import check_bend_angle
 from ..design import JointDesign
-from ..load import UPRIGHT, DeadLoad, Load
+from ..design_uncertainty import DesignUncertainty
+from ..errors import TensionError
+from ..load import UPRIGHT, Load
 from ..state import Regime
 from ..tensions import Tensions, check_tensions, taut_slip
-from .members import follow, slips_of
-from .smoothing import REACH, SampleBuffer, Windows
+from .consistency import Consistency
+from .ensemble import Ensemble
+from .members import follow
+from .recent import RecentSamples, Sample
+from .scores import Reading
+from .smoothing import Estimate
 from .state import FilterState
 
 Floats = NDArray[np.float64]
-
-MEMBERS = 17
-"""Possible units that are followed; odd, so that the median is one of them"""
-
-PATH = (0.75, 0.5, 0.375, 0.25, 0.18, 0.12, 0.08, 0.05, 0.03, 0.015, 0.0)
-"""Places of the provisional path, as shares of the lag before the newest sample"""
-
-CAUTION = 2.0
-"""By how much the standard errors are taken for larger, since windows also are a little wrong"""
 
 HISTORY = 5000
 """Committed states that are kept"""
@@ -37,12 +32,8 @@ HISTORY = 5000
 SURE = 0.99
 """Probability of a stop from which on the angle is assured by it"""
 
-
-@dataclass
-class _Sample:
-    time: float
-    load: Load
-    dead: DeadLoad
+LOST = 6.0
+"""Deviations of a measured angle from all members above which they are where it says"""
 
 
 class StickSlipFilter:
@@ -67,10 +58,12 @@ class StickSlipFilter:
         Standard deviation of the noise of each tension in N, from sample to sample.
     tension_bias_stddev : float
         Standard deviation of the constant error of each tension in N.
+    design_covariance : DesignUncertainty, optional
+        Of parameters of the design; without it the design is exact.
     lag : float
         Time in s after which what was found is committed.
     seed : int
-        Of the biases of the members; the same seed gives the same results.
+        Of biases and designs of the members; the same seed gives the same results.
 
     Raises
     ------
@@ -88,6 +81,7 @@ class StickSlipFilter:
         bend_angle_stddev: float = 0.0,
         tension_stddev: float,
         tension_bias_stddev: float = 0.0,
+        design_covariance: DesignUncertainty | None = None,
         lag: float = 0.15,
         seed: int = 0,
     ) -> None:
@@ -100,16 +94,11 @@ class StickSlipFilter:
             if not least <= value < math.inf:
                 raise ValueError(f'{name} is {value!r}, allowed is {least:g} or more')
         self._design = design
-        self._stddev = tension_stddev
         self._lag = lag
-        random = np.random.default_rng(seed)
-        shares = (np.arange(MEMBERS) + 0.5) / MEMBERS
-        self._scores = np.array([NormalDist().inv_cdf(share) for share in shares])
-        self._other_scores = random.permutation(self._scores)
-        self._biases = tension_bias_stddev * np.array(
-            [random.permutation(self._scores), random.permutation(self._scores)]
-        )
-        self._windows: dict[tuple[int, tuple[int, ...]], Windows] = {}
+        self._bias_stddev = tension_bias_stddev
+        self._uncertainty = design_covariance
+        self._ensemble = Ensemble(design, tension_bias_stddev, design_covariance, seed)
+        self._samples = RecentSamples(tension_stddev)
         self.reset(bend_angle, bend_angle_stddev)
 
     def reset(self, bend_angle: float, stddev: float = 0.0) -> None:
@@ -121,12 +110,11 @@ class StickSlipFilter:
             If the angle is not a number or lies beyond the stop; the old one then stays.
         """
         angle = check_bend_angle(self._design, bend_angle)
-        stop = self._design.max_bend_angle
-        self._committed = np.clip(angle + stddev * self._other_scores, -stop, stop)
-        self._newest = self._committed
+        self._committed = self._newest = self._ensemble.angles(angle, stddev)
         self._assured = True
-        self._forget_samples()
+        self._consistency = Consistency(self._design, self._bias_stddev, self._uncertainty)
         self._history: deque[FilterState] = deque(maxlen=HISTORY)
+        self._forget_samples()
 
     def doubt(self) -> None:
         """Take it that the unit may have moved unseen, say while no tensions came.
@@ -164,91 +152,75 @@ class StickSlipFilter:
             If the time is not later than that before. What was known stays in both cases.
         """
         tensions = check_tensions(tension_l, tension_s)
-        if self._samples and not time > self._samples[-1].time:
-            raise ValueError(
-                f'time is {time!r} s, which is not after {self._samples[-1].time!r} s'
-            )
+        last = self._samples.time
+        if last is not None and not time > last:
+            raise ValueError(f'time is {time!r} s, which is not after {last!r} s')
         if tensions.slack_cable:
             self.doubt()
             return FilterState.slack(self._design, load, time, tensions)
         taut_slip(self._design, tensions, load)
-        if self._samples and time - self._samples[-1].time > self._lag:
+        if last is not None and time - last > self._lag:
             # What was before cannot tell what the tensions are now.
             self._committed = self._newest
             self._forget_samples()
-        self._buffer.append(tensions, REACH + len(self._samples))
-        self._samples.append(_Sample(time, load, load.on(self._design)))
-        settled = sum(sample.time <= time - self._lag for sample in self._samples)
-        ages = [*range(len(self._samples) - 1, len(self._samples) - 1 - settled, -1)]
-        waiting = len(self._samples) - settled
-        ages += [age for age in self._path(waiting) if age < waiting]
-        return self._follow(tensions, settled, ages)
+        self._samples.append(tensions, Sample(time, load))
+        return self._follow(tensions, self._samples.settled(time - self._lag))
 
-    @staticmethod
-    def _path(waiting: int) -> list[int]:
-        """Ages of the places of the provisional path, of so many samples that are not settled."""
-        return sorted({round(share * (waiting - 1)) for share in PATH}, reverse=True)
-
-    def _follow(self, tensions: Tensions, settled: int, ages: list[int]) -> FilterState:
-        """Commit the samples that are settled, and follow the rest from there."""
-        count = min(len(self._buffer), REACH + ages[0])
-        windows = self._windows_at(count, tuple(ages))
-        estimate = windows.estimate(self._buffer.newest(count), self._stddev)
-        errors = estimate.error[:, :, None] * (CAUTION * self._scores)
-        paths = estimate.value[:, :, None] + errors * _TOWARDS_S - self._biases[:, None, :]
-        slips = slips_of(self._design, self._dead_loads(ages), paths)
-
-        committed, _ = follow(self._design, slips.part(slice(settled)), self._committed)
-        newest, moved = follow(self._design, slips.part(slice(settled, None)), committed)
-        for _ in range(settled):
-            sample = self._samples.popleft()
-        if settled:
+    def _follow(self, tensions: Tensions, settled: int) -> FilterState:
+        """Commit the samples that are settled, and follow the newer ones from there."""
+        samples, ensemble = self._samples.waiting, self._ensemble
+        ages = self._samples.path(settled, self._measured)
+        estimate = self._samples.smoothed(ages)
+        for row in range(settled):
+            self._judge(samples[row], Estimate(*(part[:, row] for part in estimate)))
+        # Those up to a measured angle are in what it was committed to.
+        first = min(settled, self._measured)
+        loads = [samples[-1 - age].load for age in ages[first:]]
+        paths = ensemble.tensions(Estimate(*(part[:, first:] for part in estimate)))
+        slips = ensemble.slips(paths, loads)
+        path = follow(slips, self._committed, ensemble.stop)
+        committed = settled - first
+        for row in range(committed):
             self._history.append(
-                FilterState(
-                    self._design,
-                    sample.load,
-                    sample.time,
-                    Tensions(*estimate.value[:, settled - 1].tolist()),
-                    angles=committed,
-                    moved=committed != self._committed,
-                    slips=slips.part(settled - 1),
+                self._state(
+                    samples[first + row],
+                    Tensions(*estimate.value[:, first + row].tolist()),
+                    *(path[row : row + 2], paths[:, row].copy()),
                     provisional=False,
-                    angle_assured=self._assured,
                 )
             )
-        self._committed, self._newest = committed, newest
-        last = self._samples[-1]
-        state = FilterState(
-            self._design,
-            last.load,
-            last.time,
-            tensions,
-            angles=newest,
-            moved=moved,
-            slips=slips.part(-1),
-            provisional=True,
-            angle_assured=self._assured,
+        self._committed, self._newest = path[committed], path[-1]
+        state = self._state(
+            samples[-1], tensions, path[-2:], paths[:, -1].copy(), provisional=True
         )
+        for _ in range(settled):
+            samples.popleft()
+        self._measured -= first
         if not self._assured and state.regime_probabilities[Regime.DRIVEN_TO_STOP] > SURE:
             self._assured = state.angle_assured = True
+        self._last = state
         return state
 
-    def _dead_loads(self, ages: list[int]) -> DeadLoad:
-        """The dead loads at samples of these ages; of one shape with their tensions."""
-        samples = [self._samples[-1 - age] for age in ages]
-        first = samples[0].dead
-        if all(sample.dead == first for sample in samples):
-            return first
-        return DeadLoad(*np.array([sample.dead for sample in samples]).T[:, :, None])
-
-    def _windows_at(self, count: int, ages: tuple[int, ...]) -> Windows:
-        """The windows at these ages among so many samples; kept, since they seldom change."""
-        windows = self._windows.get((count, ages))
-        if windows is None:
-            if len(self._windows) > 64:
-                self._windows.clear()
-            windows = self._windows[count, ages] = Windows(count, np.array(ages))
-        return windows
+    def _state(
+        self,
+        sample: Sample,
+        tensions: Tensions,
+        path: Floats,
+        member_tensions: Floats,
+        *,
+        provisional: bool,
+    ) -> FilterState:
+        """The state at a sample; `path` is where the members were before it and are at it."""
+        return FilterState(
+            *(self._design, sample.load, sample.time, tensions),
+            angles=path[1].copy(),
+            moved=path[1] != path[0],
+            ensemble=self._ensemble,
+            member_tensions=member_tensions,
+            provisional=provisional,
+            angle_assured=self._assured,
+            consistency=self.consistency,
+        )
 
     def measure(self, bend_angle: float, stddev: float) -> None:
         """Take what an encoder or a camera says of the angle at the newest sample.
@@ -269,16 +241,43 @@ class StickSlipFilter:
         if not 0.0 < stddev < math.inf:
             raise ValueError(f'stddev is {stddev!r} rad, which must be above 0')
         # Each member is drawn to a reading of its own, by what it is worth beside their spread.
-        spread = float(np.var(self._newest))
-        gain = spread / (spread + stddev * stddev)
-        readings = angle + stddev * self._other_scores
-        stop = self._design.max_bend_angle
-        self._newest = np.clip(self._newest + gain * (readings - self._newest), -stop, stop)
-        if not self._assured:
-            self._newest = np.clip(readings, -stop, stop)
-        self._committed = self._newest
+        readings = self._ensemble.angles(angle, stddev)
+        spread = float(np.std(self._newest))
+        farthest = float(np.abs(self._newest - angle).min())
+        gain = spread**2 / (spread**2 + stddev**2)
+        if not self._assured or farthest > LOST * stddev:
+            gain = 1.0
+        self._committed = self._newest = self._newest + gain * (readings - self._newest)
         self._assured = True
-        self._samples.clear()
+        waiting = self._samples.waiting
+        if waiting:
+            waiting[-1].reading = angle, stddev
+            self._measured = len(waiting)
+            self._history.append(self._last.measured(self._newest))
+
+    def _judge(self, sample: Sample, estimate: Estimate) -> None:
+        """Hold the angle that was measured at a sample, if it was, against its tensions."""
+        if sample.reading is None:
+            return
+        tensions = Tensions(*estimate.value.tolist())
+        try:
+            taut_slip(self._design, tensions, sample.load)
+        except TensionError:
+            return
+        of_l, of_s = estimate.error.tolist()
+        self._consistency.take(
+            Reading(sample.time, *sample.reading, tensions, (of_l, of_s), sample.load)
+        )
+
+    @property
+    def consistency(self) -> float:
+        """Probability of the newest measured angles under the model; NaN while there are none.
+
+        Low where the model cannot explain them: a wrong friction coefficient, a bias, a sign. A
+        unit that rests within the boundary of slip says nothing. Below 1e-9 is an alarm that is
+        false less than once in a day at 500 Hz.
+        """
+        return self._consistency.probability
 
     @property
     def committed(self) -> FilterState | None:
@@ -291,9 +290,5 @@ class StickSlipFilter:
         return self._history[index - 1] if index else None
 
     def _forget_samples(self) -> None:
-        self._samples: deque[_Sample] = deque()  # those that are not committed
-        self._buffer = SampleBuffer(2)
-
-
-_TOWARDS_S = np.array([-1.0, 1.0])[:, None, None]
-"""Of the errors of T_l and T_s, so that a member of a higher score is driven more towards s"""
+        self._samples.forget()
+        self._measured = 0  # how many of those waiting there were at the last measured angle

@@ -15,7 +15,7 @@ from ..recording import OF_LOAD, Recording
 from .bag_beside import default_beside, find_beside, named_beside
 from .bag_storage import END_OF_TIME, Message, Messages, read_messages
 from .bag_tensions import find_tensions, tension_samples
-from .clock import Stamped, Times, common_clock
+from .clock import Clocked, Stamped, Times, common_clock
 from .topics import DEFAULT_PAIR, DEFAULT_TENSIONS, BagTopics, full_name
 
 LOAD_SKEW = 500_000_000
@@ -48,10 +48,10 @@ def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Reco
     tensions = find_tensions(bag, names, topics)
     beside = find_beside(bag, topics)
     skew = round(min(topics.max_skew * 1e9, END_OF_TIME))
-    times, late, notes = _times([tensions.messages, beside.messages], topics.clock, skew)
+    times, clocked = _times([tensions.messages, beside.messages], topics.clock, skew)
     tension_skew = topics.max_skew if topics.tension_skew is None else topics.tension_skew
     samples = tension_samples(tensions, times, tension_skew)
-    if late & tensions.messages.keys():
+    if clocked.late & tensions.messages.keys():
         samples.sort(key=lambda sample: sample.time)
     at = np.array([sample.time for sample in samples], dtype=np.int64)
     origin = int(at.min())
@@ -79,14 +79,15 @@ def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Reco
         time_origin=origin,
         name=path.name,
         damage=tuple(bag.damage),
-        notes=(*bag.notes, *beside.notes, *notes),
+        notes=(*bag.notes, *beside.notes, *clocked.notes),
+        clock=clocked.named,
     )
 
 
 def _times(
     used: Sequence[Mapping[str, Sequence[Message]]], clock: str, skew: int
-) -> tuple[dict[int, int], set[str], list[str]]:
-    """Return the time of every message, by its order, as `common_clock` chooses it.
+) -> tuple[dict[int, int], Clocked]:
+    """Return the time of every message, by its order, as `common_clock` chooses it, and how.
 
     One topic may tell more than one thing.
     """
@@ -99,13 +100,13 @@ def _times(
         topic: Stamped.of((on[topic][order].stamp, on[topic][order].log_time) for order in orders)
         for topic, orders in ordered.items()
     }
-    times, late, notes = common_clock(stamped, clock, skew)
+    clocked = common_clock(stamped, clock, skew)
     by_order = {
         order: time
         for topic, orders in ordered.items()
-        for order, time in zip(orders, times[topic].tolist(), strict=True)
+        for order, time in zip(orders, clocked.times[topic].tolist(), strict=True)
     }
-    return by_order, late, notes
+    return by_order, clocked
 
 
 def _tension_topics(bag: Messages, topics: BagTopics) -> list[str]:

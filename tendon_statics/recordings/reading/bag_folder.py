@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -33,6 +33,41 @@ class BagFolder:
 def is_bag_file(path: Path) -> bool:
     """Whether a file is one of a bag by its ending, compressed or not."""
     return _without_compression(path).suffix in BAG_ENDINGS
+
+
+def is_bag_folder(folder: Path, names: Collection[str]) -> bool:
+    """Whether a folder with files of these names is one bag, and not some that lie together.
+
+    That is what its manifest says; without one it is a bag if all that are bags by their ending
+    are called after it and numbered, as a recorder that was killed leaves them.
+    """
+    files = [name for name in names if is_bag_file(Path(name))]
+    if METADATA in names:
+        return bool(files) or _is_manifest(folder / METADATA)
+    numbered = re.compile(rf'{re.escape(folder.name)}_\d+\.[\w.]+')
+    return bool(files) and all(map(numbered.fullmatch, files))
+
+
+def files_of_bag(folder: Path) -> list[Path]:
+    """All files in a folder that may tell what is in its bag."""
+    return [
+        path
+        for path in sorted(folder.iterdir())
+        if path.is_file() and (is_bag_file(path) or path.name == METADATA or _is_log(path))
+    ]
+
+
+def _is_log(path: Path) -> bool:
+    """Whether it is what a killed recorder leaves beside a ``.db3``."""
+    return path.name.endswith('.db3-wal')
+
+
+def _is_manifest(path: Path) -> bool:
+    try:
+        _information(read_yaml(path))
+    except (YamlFileError, KeyError, TypeError):
+        return False
+    return True
 
 
 def bag_folder(folder: Path) -> BagFolder:

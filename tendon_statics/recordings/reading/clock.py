@@ -115,6 +115,8 @@ class Clocked(NamedTuple):
     """Topics single messages of which came later than they were sent, so out of their order"""
     notes: list[str]
     """What is to be known of these times, a sentence each"""
+    named: str
+    """``stamp`` or ``log``, topic by topic where they differ"""
 
 
 def common_clock(topics: Mapping[str, Stamped], clock: str, max_skew: int) -> Clocked:
@@ -162,7 +164,14 @@ def common_clock(topics: Mapping[str, Stamped], clock: str, max_skew: int) -> Cl
         topic: times.stamps if topic in by_stamp else times.log_times
         for topic, times in topics.items()
     }
-    return Clocked(chosen, late, notes)
+    return Clocked(chosen, late, notes, _named(topics, by_stamp))
+
+
+def _named(topics: Iterable[str], by_stamp: Sequence[str]) -> str:
+    clocks = {topic: 'stamp' if topic in by_stamp else 'log' for topic in topics}
+    if len(set(clocks.values())) == 1:
+        return next(iter(clocks.values()))
+    return ', '.join(f'{topic}: {clock}' for topic, clock in sorted(clocks.items()))
 
 
 def _delays(topics: Mapping[str, Stamped], by_stamp: Sequence[str]) -> dict[str, int]:

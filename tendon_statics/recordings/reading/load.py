@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
+
+import numpy as np
 
 from ..errors import RecordingError, one_line
 from ..progress import Progress, unseen
@@ -59,11 +62,35 @@ def load_recording(
             from .bag import load_bag
 
             return load_bag(path, topics or BagTopics(), progress)
-        return _table(path, table, progress)
+        return _timed(_table(path, table, progress), table)
     except RecordingError as error:
         raise RecordingError(f'{path}: {one_line(error)}') from None
     except OSError as error:
         raise RecordingError(f'{path}: it cannot be read: {error.strerror or error}') from None
+
+
+def _timed(recording: Recording, options: TableOptions | None) -> Recording:
+    """Give the rows of a table without times those that its rate makes.
+
+    Raises
+    ------
+    RecordingError
+        If there are both times and a rate.
+    """
+    if options is None or options.rate is None:
+        return recording
+    if recording.time is not None:
+        raise RecordingError('it has times; a rate (--rate) is for tables without')
+    return dataclasses.replace(
+        recording,
+        time=np.arange(len(recording)) / options.rate,
+        notes=(*recording.notes, f'time: {options.rate:g} rows per second, as was said'),
+    )
+
+
+def is_recording_file(path: Path) -> bool:
+    """Whether a file is a recording, or one of a bag, by its ending."""
+    return path.suffix in ENDINGS or is_bag_file(path)
 
 
 def _table(path: Path, options: TableOptions | None, progress: Progress) -> Recording:

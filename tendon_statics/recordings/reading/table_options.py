@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import dataclasses
+import math
 from collections.abc import Mapping
 
 from ..errors import RecordingError
@@ -37,6 +38,8 @@ class TableOptions:
     """Lines before the one with the titles"""
     encoding: str | None = None
     """Of a text file, say ``latin-1``; None: UTF-8, or UTF-16 with a byte-order mark"""
+    rate: float | None = None
+    """Rows per second of a table without times"""
 
     def __post_init__(self) -> None:
         """Check what can be checked without a table.
@@ -70,6 +73,10 @@ class TableOptions:
         for quantity, unit in units.items():
             _check_quantity(quantity, (*UNITS, *PAIRS))
             unit_factor(quantity, unit)
+        if self.rate is not None and not 0.0 < self.rate < math.inf:
+            raise RecordingError(
+                f'the rate is {self.rate!r} Hz; a finite number above 0 is needed'
+            )
         if self.encoding is not None:
             try:
                 codecs.lookup(self.encoding)

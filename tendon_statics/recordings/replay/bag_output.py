@@ -15,7 +15,7 @@ from ..progress import Progress, unseen
 from ..reading.bag_beside import DEFAULT_TOPICS
 from ..reading.bag_values import ARRAY, NUMBER, TEXT
 from ..recording import Floats, Recording
-from .estimates import Replay
+from .result import Replay
 
 BOOLEAN = 'std_msgs/msg/Bool'
 
@@ -117,11 +117,27 @@ def _estimated(replay: Replay) -> list[_Series]:
         _Series(f'{PREFIX}regime', TEXT, replay.regime.tolist()),
         _Series(f'{PREFIX}bend_angle', NUMBER, _determined(replay.bend_angle)),
         _Series(f'{PREFIX}bend_angle_stddev', NUMBER, _determined(replay.bend_angle_stddev)),
+        *_band(replay),
         _Series(f'{PREFIX}joint_pressure', NUMBER, _determined(replay.pressure)),
         _Series(f'{PREFIX}joint_pressure_stddev', NUMBER, _determined(replay.pressure_stddev)),
         _Series(f'{PREFIX}slip_margin', NUMBER, _determined(replay.slip_margin)),
         _Series(f'{PREFIX}angle_assured', BOOLEAN, replay.angle_assured.tolist()),
         _Series(f'{PREFIX}validity', TEXT, replay.validity.tolist()),
+    ]
+
+
+def _band(replay: Replay) -> list[_Series]:
+    """What a filter says beside."""
+    if replay.interval is None or replay.regime_probabilities is None:
+        return []
+    low, high = replay.interval
+    return [
+        _Series(f'{PREFIX}bend_angle_low', NUMBER, _determined(low)),
+        _Series(f'{PREFIX}bend_angle_high', NUMBER, _determined(high)),
+        *(
+            _Series(f'{PREFIX}probability_{regime.value}', NUMBER, _determined(shares))
+            for regime, shares in replay.regime_probabilities.items()
+        ),
     ]
 
 

@@ -4,86 +4,26 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...estimation.estimate import Estimate, KnownLoad, Remark
 from ...estimation.regimes import INVALID
 from ...estimation.settings import Settings
-from ...estimation.unit_estimator import KnownLoad, UnitEstimator
-from ...physics import Equilibrium, JointDesign, Load, TensionError
+from ...estimation.unit_estimator import UnitEstimator
+from ...physics import JointDesign, Load, Regime, TensionError
 from ...physics.admissible import check_bend_angle
 from ...physics.batch import solve_batch
 from ...tensions.reason import ReadingError, Reason
+from ..errors import RecordingError
 from ..progress import Progress, unseen
-from ..reading.columns import READINGS
-from ..recording import OF_LOAD, Floats, Recording
+from ..recording import Floats, Recording
 from ..samples import Samples
+from .result import VALID, Replay
 
 CHUNK = 20_000
 """Samples solved at once, after which progress is shown"""
-
-VALID = 'valid'
-
-
-class Replay(NamedTuple):
-    """What the model says of each sample; arrays of shape ``(n,)``, NaN where not determined."""
-
-    recording: Recording
-    load: Load
-    """What acts beside the cables, as far as it was not recorded"""
-    estimation: str
-    regime: NDArray[np.str_]
-    bend_angle: Floats
-    """rad"""
-    bend_angle_stddev: Floats
-    pressure: Floats
-    """Pa"""
-    pressure_stddev: Floats
-    slip_margin: Floats
-    angle_assured: NDArray[np.bool_]
-    """False after what cannot vouch for a tracked unit, such as a slack cable, until a stop"""
-    validity: NDArray[np.str_]
-    """``valid``, or why a sample is not, in the node's words (`Reason`)"""
-
-    @property
-    def error(self) -> Floats | None:
-        """Estimated less measured angle in rad, where both are there and the angle is assured."""
-        if self.recording.bend_angle is None:
-            return None
-        error: Floats = np.where(
-            self.angle_assured, self.bend_angle - self.recording.bend_angle, math.nan
-        )
-        return error
-
-    def columns(self) -> dict[str, Floats | NDArray[np.str_] | NDArray[np.bool_]]:
-        """Table with the recorded columns and the estimated ones, by name; SI units."""
-        recorded = self.recording
-        columns = {
-            name: values
-            for name, values in (
-                ('time', recorded.time),
-                ('tension_l', recorded.tension_l),
-                ('tension_s', recorded.tension_s),
-                *zip(READINGS, recorded.readings or (None, None), strict=True),
-                ('bend_angle', recorded.bend_angle),
-                ('pressure', recorded.pressure),
-                *((name, getattr(recorded, name)) for name in OF_LOAD),
-                ('state', None if recorded.state is None else np.array(recorded.state)),
-            )
-            if values is not None
-        }
-        return columns | {
-            'regime': self.regime,
-            'estimated_bend_angle': self.bend_angle,
-            'estimated_bend_angle_stddev': self.bend_angle_stddev,
-            'estimated_pressure': self.pressure,
-            'estimated_pressure_stddev': self.pressure_stddev,
-            'slip_margin': self.slip_margin,
-            'angle_assured': self.angle_assured,
-            'validity': self.validity,
-        }
 
 
 def replay(
@@ -103,7 +43,7 @@ def replay(
     ----------
     estimation : str
         ``equilibrium``: each sample by itself, as `solve` does; ``tracking``: with the memory of a
-        `StickSlipTracker`.
+        `StickSlipTracker`; ``filtering``: of a `StickSlipFilter`.
     settings : Settings
         How the unit is measured and what is believed; the design of it is not looked at. What
         follows changes it, where it is given.
@@ -121,7 +61,8 @@ def replay(
     BendAngleError
         If the initial angle is not a number or lies beyond the stop.
     RecordingError
-        If a unit is to be tracked through a recording in which time goes back.
+        If a unit is to be followed through a recording in which time goes back, or filtered
+        through one without times.
     TensionError
         If the deviation is not finite and above 0.
     """
@@ -138,15 +79,23 @@ def replay(
     samples = Samples(recording, settings)
     loads = recording.loads(load)
     starts = progress(range(0, len(recording), CHUNK), 'solving')
-    if estimation == 'equilibrium':
-        parts = [_solved(samples, loads, start) for start in starts]
-    else:
+    unit = UnitEstimator(settings, estimation)
+    if unit.remembers:
         recording.in_order()
-        unit = UnitEstimator(settings, estimation)
-        parts = [_tracked(unit, samples, loads, start) for start in starts]
-    regime, numbers, assured = zip(*parts, strict=True)
-    angles, angle_stddev, pressure, pressure_stddev, margin = np.concatenate(numbers, axis=1)
-    regimes = np.concatenate(regime)
+    is_filtered = estimation == 'filtering'
+    if is_filtered and recording.time is None:
+        raise RecordingError(
+            f'{recording.name}: filtering needs the time of each sample, which is not recorded'
+        )
+    # The derivatives by the design, on which its part in a deviation rests, are those of one pair.
+    is_batch = not unit.remembers and settings.design_uncertainty is None
+    parts = [
+        _solved(samples, loads, start) if is_batch else _followed(unit, samples, loads, start)
+        for start in starts
+    ]
+    regime_names, numbers, assured = zip(*parts, strict=True)
+    of_each = dict(zip(_NUMBERS, np.concatenate(numbers, axis=1), strict=True))
+    regimes = np.concatenate(regime_names)
     validity = [
         fault or (Reason.BELOW_WEIGHT.value if name == INVALID else VALID)
         for fault, name in zip(samples.faults, regimes.tolist(), strict=True)
@@ -155,14 +104,21 @@ def replay(
         recording,
         load,
         estimation,
-        regimes,
-        angles,
-        angle_stddev,
-        pressure,
-        pressure_stddev,
-        margin,
-        np.concatenate(assured),
-        np.array(validity, dtype=np.str_),
+        regime=regimes,
+        bend_angle=of_each['bend_angle'],
+        bend_angle_stddev=of_each['bend_angle_stddev'],
+        pressure=of_each['pressure'],
+        pressure_stddev=of_each['pressure_stddev'],
+        slip_margin=of_each['slip_margin'],
+        angle_assured=np.concatenate(assured),
+        validity=np.array(validity, dtype=np.str_),
+        confidence=settings.confidence,
+        measured_stddev=settings.measured_bend_angle_stddev,
+        interval=(of_each['low'], of_each['high']) if is_filtered else None,
+        regime_probabilities={regime: of_each[regime.value] for regime in _FILTERED_REGIMES}
+        if is_filtered
+        else None,
+        noise_risks=unit.health.count(Remark.NOISE),
     )
 
 
@@ -171,8 +127,17 @@ def _part(samples: Samples, start: int) -> range:
     return range(start, min(start + CHUNK, len(samples.tensions)))
 
 
+_FILTERED_REGIMES = tuple(regime for regime in Regime if regime is not Regime.EQUILIBRIUM)
+"""Those that a filter gives a probability"""
+
+_NUMBERS = (
+    *('bend_angle', 'bend_angle_stddev', 'pressure', 'pressure_stddev', 'slip_margin'),
+    *('low', 'high', *(regime.value for regime in _FILTERED_REGIMES)),
+)
+"""What there is of each sample"""
+
 _Part = tuple[NDArray[np.str_], Floats, NDArray[np.bool_]]
-"""Regimes, the five numbers of each sample in rows, and whether the angle is assured"""
+"""Regimes, the numbers of each sample in rows, and whether the angle is assured"""
 
 
 def _solved(samples: Samples, loads: Load | list[Load], start: int) -> _Part:
@@ -188,14 +153,17 @@ def _solved(samples: Samples, loads: Load | list[Load], start: int) -> _Part:
             answers.pressure,
             answers.pressure_stddev(settings.tension_stddev),
             answers.slip_margin,
+            *np.full((len(_NUMBERS) - 5, len(part)), math.nan),
         ]
     )
     return answers.regime_names, numbers, np.full(answers.regime.shape, True)
 
 
-def _tracked(unit: UnitEstimator, samples: Samples, loads: Load | list[Load], start: int) -> _Part:
-    regimes, rows, assured = [], [], []
-    stddev = samples.settings.tension_stddev
+def _followed(
+    unit: UnitEstimator, samples: Samples, loads: Load | list[Load], start: int
+) -> _Part:
+    regimes, assured = [], []
+    rows: list[list[float | None]] = []
     for place in _part(samples, start):
         known = KnownLoad(loads if isinstance(loads, Load) else loads[place])
         now, measured = samples.times[place]
@@ -204,27 +172,28 @@ def _tracked(unit: UnitEstimator, samples: Samples, loads: Load | list[Load], st
             if fault:
                 unit.drop(Reason(fault), fault)
                 raise ReadingError(Reason(fault), fault)
-            state = unit.take_tensions(*samples.tensions[place], known, now, measured)
+            estimate = unit.take_tensions(*samples.tensions[place], known, now, measured)
         except ReadingError as error:
             samples.faults[place] = error.reason.value
             regimes.append(INVALID)
-            rows.append((math.nan,) * 5)
-            assured.append(False)
+            rows.append([math.nan] * len(_NUMBERS))
+            assured.append(not unit.remembers)
             continue
-        regimes.append(state.regime.value)
-        rows.append((*_estimates(state, stddev), _number(state.slip_margin)))
-        assured.append(state.angle_assured)
-    return np.array(regimes), np.array(rows).reshape(-1, 5).T, np.array(assured)
+        regimes.append(estimate.regime.value)
+        rows.append(_numbers(estimate))
+        assured.append(estimate.angle_assured or not unit.remembers)
+    numbers = np.array(rows, dtype=float).reshape(-1, len(_NUMBERS)).T
+    return np.array(regimes), numbers, np.array(assured)
 
 
-def _estimates(result: Equilibrium, tension_stddev: float) -> tuple[float, float, float, float]:
-    return (
-        _number(result.bend_angle),
-        _number(result.bend_angle_stddev(tension_stddev)),
-        _number(result.pressure),
-        _number(result.pressure_stddev(tension_stddev)),
-    )
-
-
-def _number(value: float | None) -> float:
-    return math.nan if value is None else value
+def _numbers(estimate: Estimate) -> list[float | None]:
+    """What `_NUMBERS` names; None becomes NaN in an array."""
+    found: list[float | None] = [
+        *(estimate.bend_angle, estimate.bend_angle_stddev),
+        *(estimate.pressure, estimate.pressure_stddev, estimate.slip_margin),
+    ]
+    if estimate.exact is not None:  # whose interval and probabilities would take too long
+        return [*found, *[None] * (len(_NUMBERS) - 5)]
+    probabilities = estimate.regime_probabilities or {}
+    found += estimate.interval or (None, None)
+    return [*found, *(probabilities.get(regime) for regime in _FILTERED_REGIMES)]

@@ -1,0 +1,31 @@
+"""``tendon-statics arm``: units in series; one module for each of its verbs."""
+
+from __future__ import annotations
+
+import argparse
+from importlib import import_module
+
+ARM_VERBS = {
+    'track': 'follow the arm, with memory, through the tensions of a CSV file',
+    'margins': 'how near every joint is to slipping, under one set of tensions',
+    'order': 'the order in which the joints slip while the tensions change',
+    'invert': 'the tensions that bring one joint to its limit first',
+    'plot': 'a figure of the arm going through the tensions of a CSV file',
+}
+"""Verb → what it does; the module ``arm_...`` has the rest"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the verb takes."""
+    verbs = parser.add_subparsers(dest='arm_verb', metavar='VERB', required=True)
+    for name, description in ARM_VERBS.items():
+        subparser = verbs.add_parser(name, help=description, description=description)
+        module = import_module(f'{__package__}.arm_{name}')
+        module.add_arguments(subparser)
+        subparser.set_defaults(run_arm=module.run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the verb of the arm."""
+    code: int | None = options.run_arm(options)
+    return code or 0

@@ -1,0 +1,188 @@
+"""``estimation: filtering``: with the memory of a `StickSlipFilter`, for load cells with noise."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from .estimate import Estimate, KnownLoad, Sample
+from .filtered_estimate import FilteredEstimate
+from .method import Method, within_stop
+from .settings import Settings
+
+if TYPE_CHECKING:
+    from ..physics import FilterState, StickSlipFilter
+
+MOST_WAITING = 100_000
+"""Samples whose times are kept until they are committed; at 10 kHz those of the longest lag"""
+
+FIRST_STEP = 0.001
+"""Time in s between two samples of which nothing is known"""
+
+BEYOND_STOP = 4.0
+"""Deviations by which a sensor may read beyond the stop of a unit that is there"""
+
+
+class Filtering(Method):
+    """Follows the unit, and takes each pair of tensions for a noisy reading."""
+
+    remembers = True
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__(settings)
+        self._here: FilterState | tuple[float, float] = (settings.initial_bend_angle, 0.0)
+        """Where the unit is: as the filter said, or angle and deviation that it was told"""
+        self._assured = True
+        self._filter = self._new_filter()
+        self._clock = _ForwardClock()
+        self._newest: FilteredEstimate | None = None
+        self._waiting: deque[tuple[float, float]] = deque(maxlen=MOST_WAITING)
+        """Of samples that are not committed: time of the filter, and when they were measured"""
+
+    @classmethod
+    def refusal(cls, settings: Settings) -> str:
+        """Return why it cannot work with settings: noise is what it is made for."""
+        if settings.tension_stddev > 0.0:
+            return ''
+        return (
+            f'tension_stddev is {settings.tension_stddev!r}, and estimation is filtering, which '
+            'needs the noise of each tension, above 0 N; tracking is for tensions without noise'
+        )
+
+    def _new_filter(self) -> StickSlipFilter:
+        """Return a filter of a unit that is where it was last."""
+        from ..physics import StickSlipFilter  # Here, for who only solves needs no NumPy.
+
+        settings, (angle, stddev) = self.settings, self._place
+        found = StickSlipFilter(
+            settings.design,
+            bend_angle=angle,
+            bend_angle_stddev=stddev,
+            tension_stddev=settings.tension_stddev,
+            tension_bias_stddev=settings.tension_bias_stddev,
+            design_covariance=settings.design_uncertainty,
+            lag=settings.filter_lag,
+        )
+        if not self._assured:
+            found.doubt()
+        return found
+
+    @property
+    def _place(self) -> tuple[float, float]:
+        """Angle in rad and deviation of where the unit is."""
+        if isinstance(self._here, tuple):
+            return self._here
+        assert self._here.bend_angle is not None
+        return self._here.bend_angle, float(self._here.members.std())
+
+    def update(self, sample: Sample) -> FilteredEstimate:
+        """Follow the unit through a pair of tensions."""
+        for _ in self._committed_now():
+            pass  # Nobody wanted what the sample before has committed.
+        time = self._clock.time(sample)
+        state = self._filter.update(*sample[:2], time, sample.known.load)
+        if state.bend_angle is not None:
+            self._here = state
+            self._waiting.append((time, sample.measured))
+        self._assured = state.angle_assured
+        self._newest = self._estimate(state, sample.known, sample.measured)
+        return self._newest
+
+    def imagine(self, sample: Sample) -> FilteredEstimate:
+        """Work out where a pair of tensions would take the unit."""
+        state = self._new_filter().update(*sample[:2], 0.0, sample.known.load)
+        return self._estimate(state, sample.known, sample.measured)
+
+    def again(self, sample: Sample) -> Estimate:
+        """Return the newest estimate, which has the samples before it in it."""
+        return self._newest or self.imagine(sample)
+
+    def _estimate(self, state: FilterState, known: KnownLoad, measured: float) -> FilteredEstimate:
+        return FilteredEstimate(state, known, self.settings, measured)
+
+    def take_committed(self) -> list[Estimate]:
+        """Return the estimates that will not be taken back, each once; tensions are smoothed."""
+        found: list[Estimate] = []
+        for time, measured in self._committed_now():
+            state = self._filter.history(time)
+            if state is not None and state.time == time:
+                found.append(self._estimate(state, KnownLoad(state.load), measured))
+        return found
+
+    def _committed_now(self) -> Iterator[tuple[float, float]]:
+        """Times of samples that wait no longer, which are then forgotten."""
+        newest = self._filter.committed
+        while newest is not None and self._waiting and self._waiting[0][0] <= newest.time:
+            yield self._waiting.popleft()
+
+    def change_settings(self, settings: Settings) -> str:
+        """Go on with other settings, from where the unit is; the samples before are forgotten."""
+        before, self.settings = self.settings, settings
+        if _made_of(settings) == _made_of(before):
+            return ''
+        angle, stddev = self._place
+        angle, said = within_stop(angle, settings.design)
+        self._here = (angle, stddev)
+        self._assured = self._assured and not said
+        self._begin_anew(self._new_filter())
+        return said
+
+    def doubt(self) -> None:
+        """Take it that the unit may have moved unseen."""
+        self._filter.doubt()
+        self._assured = False
+        self._waiting.clear()  # They will not be committed.
+
+    def put(self, bend_angle: float) -> None:
+        """Put the unit to an angle in rad."""
+        self._filter.reset(bend_angle)
+        self._here, self._assured = (bend_angle, 0.0), True
+        self._begin_anew(self._filter)
+
+    def measure(self, bend_angle: float) -> None:
+        """Take an angle in rad that a sensor says; a little beyond the stop is at the stop."""
+        stddev = self.settings.measured_bend_angle_stddev
+        stop = self.settings.design.max_bend_angle
+        if stop < abs(bend_angle) <= stop + BEYOND_STOP * stddev:
+            bend_angle = math.copysign(stop, bend_angle)
+        self._filter.measure(bend_angle, stddev)
+        if not self._assured or self._place[1] > stddev:
+            self._here = (bend_angle, stddev)
+        self._assured = True
+        self._newest = None
+
+    def _begin_anew(self, found: StickSlipFilter) -> None:
+        self._filter = found
+        self._newest = None
+        self._waiting.clear()
+
+
+class _ForwardClock:
+    """Times of samples for a filter, which only go forward, whatever their stamps do."""
+
+    def __init__(self) -> None:
+        self._time = 0.0
+        self._step = FIRST_STEP
+        self._before = (math.nan, math.nan)
+
+    def time(self, sample: Sample) -> float:
+        """Return the time of a sample in s: by its stamp, else by its arrival, else as before."""
+        now, measured = sample.time, sample.measured
+        now_before, measured_before = self._before
+        self._before = (now, measured)
+        for step in (measured - measured_before, now - now_before):
+            if step > 0.0:
+                self._step = step
+                break
+        self._time += self._step
+        return self._time
+
+
+def _made_of(settings: Settings) -> tuple[Any, ...]:
+    """What of the settings a filter is made of, or its samples are."""
+    return (
+        *(settings.design, settings.design_uncertainty, settings.scales, settings.filter_lag),
+        *(settings.tension_stddev, settings.tension_bias_stddev),
+    )

@@ -1,0 +1,22 @@
+"""Units in series: an arm, where its joints are and which of them slip."""
+
+from .arm import Arm, ArmUnit, Cable
+from .inverse import arm_tensions_for
+from .joints import arm_margins
+from .order import JointSlip, arm_slip_order
+from .shape import TipPose
+from .state import ArmState
+from .tracker import ArmTracker
+
+__all__ = [
+    'Arm',
+    'ArmState',
+    'ArmTracker',
+    'ArmUnit',
+    'Cable',
+    'JointSlip',
+    'TipPose',
+    'arm_margins',
+    'arm_slip_order',
+    'arm_tensions_for',
+]

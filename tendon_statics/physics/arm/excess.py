@@ -1,0 +1,207 @@
+"""What drives the joints of an arm beyond what friction holds, at any angles, under one load."""
+
+from __future__ import annotations
+
+import cmath
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..contact.law import LoadedLaw
+from ..slip import Slip
+from ..tensions import Tensions
+from .arm import Arm
+from .cables import AtJoints, Crossing, by_angles, pair_at, transmitted
+from .carried import Carried
+
+Floats = NDArray[np.float64]
+
+ULPS = 2e-15
+"""Share of what is added up by which a sum may be wrong, some units in the last place"""
+
+
+class Excess:
+    """M and K of every joint of an arm as functions of all bend angles.
+
+    A joint that moves to a side has the velocity f = M − side K by the rule of `flow`; with the
+    frozen others that is `slip`'s g.
+
+    Parameters
+    ----------
+    tensions : list of float
+        At the base, in N, in the arm's order.
+    at_joints : list of list of float
+        At the joints, where the arm is at first.
+    """
+
+    def __init__(
+        self,
+        arm: Arm,
+        crossing: list[Crossing],
+        carried: Carried,
+        tensions: list[float],
+        at_joints: AtJoints,
+    ) -> None:
+        self.arm, self.carried = arm, carried
+        self._crossing, self._tensions = crossing, tensions
+        self.at_joints = at_joints
+        self.springs = [design.stiffness for design in arm.designs]
+        self.levers = [design.cable_lever for design in arm.designs]
+        self._pairs = self._pairs_of(at_joints)
+        self.rounding = self._rounding()
+        self._laws: dict[tuple[int, float], tuple[Tensions, LoadedLaw, float, float]] = {}
+
+    def _rounding(self) -> list[float]:
+        """What M of each joint may be wrong by in N m, from the size of all that it is made of."""
+        sizes, beyond = [], 0.0
+        for joint in range(len(self.springs) - 1, -1, -1):
+            beyond += abs(self.carried.turning[joint])
+            pull = self.levers[joint] * sum(map(abs, self._pairs[joint]))
+            spring = self.springs[joint] * self.arm.stops[joint]
+            sizes.append(ULPS * (pull + beyond + spring))
+        return sizes[::-1]
+
+    def at(self, angles: list[float]) -> Look:
+        """Look at bend angles in rad."""
+        friction = self.arm.cable_friction_coefficient
+        at_joints, pairs = self.at_joints, self._pairs
+        if friction:
+            at_joints = transmitted(self.arm, self._tensions, angles, at_joints)
+            pairs = self._pairs_of(at_joints)
+        turns = []
+        tilt = 0.0
+        for angle in angles:
+            tilt += angle
+            turns.append(cmath.rect(1.0, tilt))
+        turned = 0.0j
+        moments = []
+        for index in range(len(angles) - 1, -1, -1):
+            turned += self.carried.turning[index] * turns[index]
+            moments.append(turned)
+        moments.reverse()
+        return Look(self, angles, turns, moments, pairs, at_joints)
+
+    def remember(self, look: Look) -> None:
+        """Take it that the arm has come there, as the friction of the cables remembers."""
+        self.at_joints, self._pairs = look.at_joints, look.pairs
+
+    def _pairs_of(self, at_joints: AtJoints) -> list[Tensions]:
+        return [pair_at(*both) for both in zip(self._crossing, at_joints, strict=True)]
+
+    def law(self, joint: int, side: float, pair: Tensions) -> tuple[LoadedLaw, float, float]:
+        """Return the contact law of a joint for slipping to a side, r T in N m, and |P| / T."""
+        kept = self._laws.get((joint, side))
+        if kept is None or kept[0] is not pair:
+            excess = self.carried.excess(joint, pair)
+            slip = Slip(self.carried.upright[joint], excess, *pair, side)
+            scale = self.arm.designs[joint].ball_radius * slip.total
+            self._laws[joint, side] = kept = pair, slip.law, scale, slip.share
+        return kept[1:]
+
+    def by_tensions(self, joint: int, side: float, look: Look) -> list[float]:
+        """∂f/∂T in m of one joint by the tension at it of every cable."""
+        crossing, design = self._crossing[joint], self.arm.designs[joint]
+        law, _, share = self.law(joint, side, look.pairs[joint])
+        turn = look.turns[joint]
+        state = law.at(turn.real, side * turn.imag)
+        held = side * design.ball_radius * (state[0] - share * law.by_share(state))
+        found = [0.0] * len(self.arm.cables)
+        for index in crossing.left:
+            found[index] = -design.cable_lever - held
+        for index in crossing.right:
+            found[index] = design.cable_lever - held
+        for index, lever in crossing.leverage:
+            found[index] = lever * design.cable_lever - held
+        return found
+
+    def by_base_tensions(self, joint: int, side: float, look: Look) -> list[float]:
+        """∂f/∂T in m of one joint by the tension at the base of every cable.
+
+        What friction has kept at a guide from an earlier sample is taken to be as unsure as the
+        sample of now, with the same error all along.
+        """
+        found = self.by_tensions(joint, side, look)
+        if self.arm.cable_friction_coefficient:
+            pulls = zip(look.at_joints[joint], self._tensions, strict=True)
+            found = [
+                gain * (at / tension if tension else 1.0)
+                for gain, (at, tension) in zip(found, pulls, strict=True)
+            ]
+        return found
+
+    def jacobian(self, look: Look, moving: dict[int, float], by: list[int]) -> Floats:
+        """∂f/∂θ in N·m/rad, of the joints that move, by joint and side, by those of `by`."""
+        pushed = (
+            by_angles(self.arm, self._tensions, look.angles, look.at_joints)
+            if self.arm.cable_friction_coefficient
+            else None
+        )
+        rows = []
+        for i, side in moving.items():
+            slope = look.capacity(i, side)[1]
+            row = [
+                -look.turned[max(i, j)].imag - (slope if j <= i else 0.0) - self._spring(i, j)
+                for j in by
+            ]
+            if pushed:
+                gains = self.by_tensions(i, side, look)
+                for cable in self._crossing[i].left + self._crossing[i].right:
+                    for j, slope in pushed[i][cable].items():
+                        if j in by:
+                            row[by.index(j)] += gains[cable] * slope
+            rows.append(row)
+        return np.array(rows)
+
+    def _spring(self, i: int, j: int) -> float:
+        return self.springs[i] if i == j else 0.0
+
+
+class Look:
+    """The joints of an arm at given bend angles."""
+
+    __slots__ = ('_capacities', '_excess', 'angles', 'at_joints', 'pairs', 'turned', 'turns')
+
+    def __init__(
+        self,
+        excess: Excess,
+        angles: list[float],
+        turns: list[complex],
+        turned: list[complex],
+        pairs: list[Tensions],
+        at_joints: AtJoints,
+    ) -> None:
+        self._excess, self.angles = excess, angles
+        self._capacities: dict[tuple[int, float], tuple[float, float]] = {}
+        self.turns, self.turned = turns, turned
+        self.pairs, self.at_joints = pairs, at_joints
+
+    def moment(self, joint: int) -> float:
+        """M in N m."""
+        excess, (left, right) = self._excess, self.pairs[joint]
+        return (
+            (right - left) * excess.levers[joint]
+            + self.turned[joint].real
+            - excess.springs[joint] * self.angles[joint]
+        )
+
+    def capacity(self, joint: int, side: float) -> tuple[float, float]:
+        """K in N m for slipping to a side, and side ∂K/∂Θ."""
+        known = self._capacities.get((joint, side))
+        if known is None:
+            law, scale, _ = self._excess.law(joint, side, self.pairs[joint])
+            turn = self.turns[joint]
+            state: tuple[Any, ...] = law.at(turn.real, side * turn.imag)
+            known = self._capacities[joint, side] = scale * state[0], scale * state[1]
+        return known
+
+    def velocity(self, joint: int, side: float) -> float:
+        """F = M − side K in N m."""
+        return self.moment(joint) - side * self.capacity(joint, side)[0]
+
+    def drive(self, joint: int) -> tuple[float, float, float]:
+        """Side to which M drives, the excess |M| − K in N m, and K."""
+        moment = self.moment(joint)
+        side = -1.0 if moment < 0.0 else 1.0
+        capacity = self.capacity(joint, side)[0]
+        return side, side * moment - capacity, capacity

@@ -1,0 +1,148 @@
+"""An arm on its way to rest: which of its joints move, and where they are."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .excess import Excess, Look
+
+Floats = NDArray[np.float64]
+
+ROUNDING = 1e-11
+"""Share of K by which M may exceed it at rest"""
+
+NOTHING = 1e-9
+"""Share of K by which M may exceed it where rounding would decide"""
+
+TOLERANCE = 1e-5
+"""How exactly in rad a step ends where it has to"""
+
+
+class Motion:
+    """The joints of an arm that move, by the rule of `flow`.
+
+    Attributes
+    ----------
+    look : Look
+        Where the arm is.
+    moving : dict
+        Joints that move → the side to which they are driven.
+    at_limit : dict
+        Likewise those that have come to rest with M = K, if none moves any more.
+    """
+
+    def __init__(self, excess: Excess, angles: list[float]) -> None:
+        self.stops = excess.arm.stops
+        self.rubs = excess.arm.cable_friction_coefficient > 0.0
+        self.rounding = excess.rounding
+        self.look = excess.at(angles)
+        self.moving: dict[int, float] = {}
+        self.at_limit: dict[int, float] = {}
+        self._excess = excess
+        self._from: dict[int, float] = {}
+        """Where each of those that move was when it began to"""
+        self._undecided: set[int] = set()
+        """Joints that rounding alone would move"""
+        self.free()
+
+    def velocity(self, look: Look) -> Floats:
+        """Return f of the joints that move, in N m, elsewhere."""
+        return np.array([look.velocity(i, side) for i, side in self.moving.items()])
+
+    def jacobian(self, look: Look) -> Floats:
+        """Return ∂f/∂θ of the joints that move, in N·m/rad, elsewhere."""
+        return self._excess.jacobian(look, self.moving, list(self.moving))
+
+    def after(self, way: Floats) -> Look:
+        """Look at the arm with the moving joints moved on, by angles in rad."""
+        angles = list(self.look.angles)
+        for joint, by in zip(self.moving, way.tolist(), strict=True):
+            angles[joint] += by
+        return self._excess.at(angles)
+
+    def take(self, look: Look) -> None:
+        """Go there."""
+        self._excess.remember(look)
+        self.look = look
+
+    def lean_on_stop(self, joint: int, side: float) -> bool:
+        """Whether a joint that is driven to a side is at its stop."""
+        return side * self.look.angles[joint] >= self.stops[joint]
+
+    def resting(self) -> dict[int, tuple[float, float]]:
+        """Return the joints at rest that may come to their limit → side and excess in N m."""
+        found = {}
+        for joint in range(len(self.stops)):
+            if joint not in self.moving:
+                side, excess, _ = self.look.drive(joint)
+                if not self.lean_on_stop(joint, side):
+                    found[joint] = side, excess
+        return found
+
+    def excess_rows(self, sides: dict[int, float]) -> Floats:
+        """Return the derivatives of the excess of some joints at rest by those that move."""
+        rows = self._excess.jacobian(self.look, sides, list(self.moving))
+        return np.array(list(sides.values())).reshape(-1, 1) * rows.reshape(-1, len(self.moving))
+
+    def free(self) -> None:
+        """Set moving what is beyond its limit and not before its stop."""
+        for joint in range(len(self.stops)):
+            if joint in self.moving:
+                continue
+            side, excess, capacity = self.look.drive(joint)
+            share = NOTHING if joint in self._undecided else ROUNDING
+            too_much = max(share * capacity, self.rounding[joint])
+            if excess > too_much and not self.lean_on_stop(joint, side):
+                self.moving[joint] = side
+                self._from[joint] = self.look.angles[joint]
+
+    def change(self) -> None:
+        """Stop what has met its stop or falls below its limit, and free what has come to it."""
+        sides = np.array(list(self.moving.values()))
+        velocity = self.velocity(self.look)
+        falls = sides * velocity < 0.0
+        if falls.any():
+            # Not what has only overshot the place at which it comes to rest.
+            falls &= sides * (self.jacobian(self.look) @ velocity) < 0.0
+        angles, stopped = list(self.look.angles), False
+        for (joint, side), is_falling in zip(list(self.moving.items()), falls, strict=True):
+            if side * (angles[joint] - self._from[joint]) < 0.0:  # has gone back a little
+                angles[joint] = self._from[joint]
+                stopped = True
+                del self.moving[joint]
+            elif side * angles[joint] >= self.stops[joint] - TOLERANCE:
+                angles[joint] = side * self.stops[joint]
+                stopped = True
+                del self.moving[joint]
+            elif is_falling:
+                del self.moving[joint]
+        if stopped:
+            self.take(self._excess.at(angles))
+        self.at_limit = {}
+        self.free()
+
+    def come_to_rest(self, look: Look) -> None:
+        """Go to where M = K of all that move; what comes to its limit there sets out from there.
+
+        What would end behind where it began to move is let rest instead: that is a joint which is
+        beyond its limit by rounding alone, while another moves.
+        """
+        behind = [
+            joint
+            for joint, side in self.moving.items()
+            if side * (look.angles[joint] - self._from[joint]) < 0.0
+        ]
+        if behind:
+            angles = list(self.look.angles)
+            for joint in behind:
+                angles[joint] = self._from[joint]
+                del self.moving[joint]
+            self._undecided |= set(behind)
+            self.take(self._excess.at(angles))
+            return
+        self.take(look)
+        self.at_limit, self.moving = self.moving, {}
+        self.free()
+        if self.moving:
+            self.moving |= self.at_limit

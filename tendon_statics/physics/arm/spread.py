@@ -1,0 +1,65 @@
+"""How sure the bend angles of an arm are, from the noise of the tensions that brought it there.
+
+To first order, with tensions whose errors are independent, of one deviation σ, and of all samples.
+A joint that rests at its limit, f(θ, T) = 0, follows the tensions of the sample that brought it
+there, and the joints that did not move, which follow samples before. So with the covariance C of
+these in units of σ²,
+
+    θ_at = −J⁻¹ (F T + J_rest θ_rest),   J = ∂f/∂θ_at,   F = ∂f/∂T.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .excess import Excess
+from .flow import Settled
+
+Floats = NDArray[np.float64]
+
+
+def spread_after(excess: Excess, settled: Settled, before: Floats) -> Floats:
+    """Return the covariance of all bend angles, over the variance of a tension, in rad²/N².
+
+    NaN where it is not known: of a joint that came to rest within its limit while others moved
+    on, and of those that depend on it.
+
+    Parameters
+    ----------
+    before : array
+        The covariance before the arm slipped.
+    """
+    look, stops = settled.look, excess.arm.stops
+    count = len(stops)
+    after: Floats = before.copy()
+    for joint in settled.moved:
+        at_stop = abs(look.angles[joint]) == stops[joint]
+        after[joint, :] = after[:, joint] = 0.0 if at_stop else math.nan
+        after[joint, joint] = 0.0 if at_stop else math.nan
+    at = list(settled.at_limit)
+    if not at:
+        return after
+    rest = [joint for joint in range(count) if joint not in at]
+    jacobian = excess.jacobian(look, settled.at_limit, at)
+    by_rest = excess.jacobian(look, settled.at_limit, rest)
+    by_tension = np.array(
+        [excess.by_base_tensions(joint, side, look) for joint, side in settled.at_limit.items()]
+    )
+    try:
+        inverse = -np.linalg.inv(jacobian)
+    except np.linalg.LinAlgError:
+        inverse = np.full(jacobian.shape, math.nan)
+    of_tension = inverse @ by_tension
+    found = of_tension @ of_tension.T
+    if rest:
+        of_rest = inverse @ by_rest
+        kept = after[np.ix_(rest, rest)]
+        across = of_rest @ kept
+        found = found + across @ of_rest.T
+        after[np.ix_(at, rest)] = across
+        after[np.ix_(rest, at)] = across.T
+    after[np.ix_(at, at)] = found
+    return after

@@ -1,0 +1,117 @@
+"""The members of a filter: possible units, each with errors of its own that stay the same."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..design import JointDesign
+from ..design_uncertainty import DesignUncertainty
+from ..draws import draw_designs, draw_normals
+from ..load import DeadLoad, Load
+from ..slip import Slip
+from ..stacked_design import StackedDesign
+from .members import slips_of
+from .smoothing import Estimate
+
+Floats = NDArray[np.float64]
+
+MEMBERS = 39
+"""Possible units that are followed. The truth is as likely to be beyond the extremes as one more
+member, so that these enclose 38 of 40: 95 %"""
+
+CAUTION = 1.25
+"""By how much the standard errors are taken for larger, since windows also are a little wrong"""
+
+_TOWARDS_S = np.array([-1.0, 1.0])[:, None, None]
+"""Of the errors of T_l and T_s, so that a member of a higher score is driven more towards s"""
+
+
+class Ensemble:
+    """What tells the members of a filter apart: constants of each.
+
+    A member's errors of the smoothed tensions, its load cells' biases and its design differ from
+    the nominal ones by so many deviations, the same all the time; each of these is spread over the
+    quantiles of a normal distribution, in an order of its own.
+
+    Parameters
+    ----------
+    design : JointDesign
+    bias_stddev : float
+        Standard deviation of the constant error of each tension in N.
+    uncertainty : DesignUncertainty, optional
+        Of the design.
+    seed : int
+        Of the orders.
+    """
+
+    def __init__(
+        self,
+        design: JointDesign,
+        bias_stddev: float,
+        uncertainty: DesignUncertainty | None,
+        seed: int,
+    ) -> None:
+        parameters = () if uncertainty is None else uncertainty.parameters
+        normals = draw_normals(MEMBERS, 3 + len(parameters), seed)
+        self._scores = CAUTION * np.sort(normals[0])
+        self._spread = normals[0]
+        self._biases = bias_stddev * normals[1:3, None]
+        self.units: JointDesign | StackedDesign = design
+        """The design of all members, or one of each"""
+        if uncertainty is not None and parameters:
+            self.units = StackedDesign(list(draw_designs(design, uncertainty, normals[3:])))
+
+    @property
+    def stop(self) -> Any:
+        """θ_max in rad, of all members or of each."""
+        return self.units.max_bend_angle
+
+    def angles(self, bend_angle: float, stddev: float) -> Floats:
+        """Return an angle of each member, spread about one in rad and within its stops."""
+        stop = self.stop
+        angles: Floats = np.minimum(np.maximum(bend_angle + stddev * self._spread, -stop), stop)
+        return angles
+
+    def dead_load(self, loads: list[Load]) -> DeadLoad:
+        """Return what loads mean for the members: of all, or of one a row."""
+        if all(load is loads[0] for load in loads):
+            return loads[0].on(self.units)
+        parts = zip(*(load.on(self.units) for load in loads), strict=True)
+        return DeadLoad(
+            *(np.array(np.broadcast_arrays(*part)).reshape(len(loads), -1) for part in parts)
+        )
+
+    def tensions(self, estimate: Estimate) -> Floats:
+        """Return what smoothed tensions are for each member, in N.
+
+        Parameters
+        ----------
+        estimate : Estimate
+            Of T_l and T_s in N, shape ``(2, pairs)``.
+
+        Returns
+        -------
+        ndarray
+            Shape ``(2, pairs, members)``.
+        """
+        errors = estimate.error[:, :, None] * (_TOWARDS_S * self._scores)
+        tensions: Floats = estimate.value[:, :, None] + errors
+        tensions -= self._biases
+        return tensions
+
+    def slips(self, tensions: Floats, loads: list[Load]) -> Slip:
+        """Return slip functions to the side of the last pair's stronger cable.
+
+        Parameters
+        ----------
+        tensions : ndarray
+            In N, of shape ``(2, pairs, members)``.
+        loads : list of Load
+            What acts beside each pair.
+        """
+        middle = tensions.shape[-1] // 2
+        side = 1.0 if tensions[1, -1, middle] >= tensions[0, -1, middle] else -1.0
+        return slips_of(self.units, self.dead_load(loads), tensions, side)

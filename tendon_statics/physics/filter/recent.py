@@ -1,0 +1,99 @@
+"""The newest samples of tensions, and what they were without noise."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..load import Load
+from ..tensions import Tensions
+from .smoothing import REACH, Estimate, SampleBuffer, Windows
+
+PATH = (0.7, 0.45, 0.28, 0.16, 0.08, 0.03, 0.0)
+"""Places of the provisional path, as shares of the time that is not settled"""
+
+KEPT_WINDOWS = 64
+"""Sets of windows that are kept"""
+
+
+@dataclass(slots=True)
+class Sample:
+    """One pair of tensions that is not settled."""
+
+    time: float
+    load: Load
+    reading: tuple[float, float] | None = None
+    """Angle and its deviation in rad, where it was measured"""
+
+
+class RecentSamples:
+    """Samples that are not settled, and as many before them as windows reach.
+
+    Parameters
+    ----------
+    stddev : float
+        Standard deviation of the noise of a tension in N.
+    """
+
+    def __init__(self, stddev: float) -> None:
+        self._stddev = stddev
+        self._windows: dict[tuple[int, tuple[int, ...]], Windows] = {}
+        self.forget()
+
+    def forget(self) -> None:
+        """Forget all samples."""
+        self.waiting: deque[Sample] = deque()
+        self._buffer = SampleBuffer(2)
+
+    @property
+    def time(self) -> float | None:
+        """Of the newest sample in s."""
+        return self.waiting[-1].time if self.waiting else None
+
+    def append(self, tensions: Tensions, sample: Sample) -> None:
+        """Append a sample that is newer than all."""
+        self.waiting.append(sample)
+        self._buffer.append(tensions, REACH + len(self.waiting))
+
+    def settled(self, until: float) -> int:
+        """Return how many of those waiting are not after a time in s."""
+        count = 0
+        for sample in self.waiting:
+            if sample.time > until:
+                break
+            count += 1
+        return count
+
+    def path(self, settled: int, measured: int) -> list[int]:
+        """Return the places to look at: all that are settled, and some of the newer ones.
+
+        Parameters
+        ----------
+        settled, measured : int
+            So many of the oldest are settled, or lie up to the last measured angle.
+
+        Returns
+        -------
+        list of int
+            Ages, as how many samples came after each.
+        """
+        newest = len(self.waiting) - 1
+        newer = newest - max(settled, measured)
+        return [
+            *(newest - place for place in range(settled)),
+            *sorted({round(share * newer) for share in PATH}, reverse=True),
+        ]
+
+    def smoothed(self, ages: Sequence[int]) -> Estimate:
+        """Estimate the tensions at samples of these ages, the oldest first."""
+        count = min(len(self._buffer), REACH + ages[0])
+        key = count, tuple(ages)
+        windows = self._windows.get(key)
+        if windows is None:  # They seldom change.
+            if len(self._windows) >= KEPT_WINDOWS:
+                self._windows.clear()
+            windows = self._windows[key] = Windows(count, np.array(ages))
+        return windows.estimate(self._buffer.newest(count), self._stddev)
