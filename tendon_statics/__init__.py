@@ -47,6 +47,7 @@ if TYPE_CHECKING:
         TensionError,
         TensionGradient,
         Tensions,
+        TipForce,
         TipPose,
         UnreachableError,
         admissible_angles,
@@ -63,6 +64,9 @@ if TYPE_CHECKING:
         solve,
         solve_batch,
         tensions_for,
+        tip_force,
+        tip_force_intervals,
+        tip_force_of_state,
     )
     from .recordings.errors import RecordingError
     from .recordings.motion import mark_motion
@@ -107,6 +111,7 @@ __all__ = [
     'TensionError',
     'TensionGradient',
     'Tensions',
+    'TipForce',
     'TipPose',
     'UnreachableError',
     'admissible_angles',
@@ -130,6 +135,9 @@ __all__ = [
     'solve',
     'solve_batch',
     'tensions_for',
+    'tip_force',
+    'tip_force_intervals',
+    'tip_force_of_state',
 ]
 
 _NOT_OF_PHYSICS = {

@@ -33,7 +33,7 @@ def test_the_readme_names_everything_the_node_has():
     """Asked of the node itself: its topics, services and parameters."""
     from list_entities import entities, estimator
 
-    with estimator('estimation:=tracking', 'markers:=true') as node:
+    with estimator('estimation:=tracking', 'markers:=true', 'tip_force:=true') as node:
         found = entities(node)
         parameters = list(node._parameters)
     # What every managed node of ROS has.

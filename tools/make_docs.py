@@ -19,6 +19,7 @@ import list_entities
 import list_parameters
 import list_permissions
 import measure_filter.figure
+import tip_force_tables
 import validate.figure
 import validate.tables
 
@@ -28,7 +29,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGES = (
     'README.md',
     *('docs/arm.md', 'docs/calibration.md', 'docs/recordings.md', 'docs/model.md', 'docs/node.md'),
-    *('docs/rig.md', 'docs/security.md', 'docs/validation.md'),
+    *('docs/rig.md', 'docs/security.md', 'docs/tip_force.md', 'docs/validation.md'),
 )
 SESSION = 'config/recorded_session.mcap'
 FIGURES = {
@@ -40,6 +41,7 @@ FIGURES = {
     'docs/recording.svg': f'plot recording {SESSION}',
     'docs/residual.svg': 'plot residual',
     'docs/tilted.svg': 'plot unit --base-tilt-deg 10',
+    'docs/tip_force.svg': f'plot tip-force {SESSION} --direction 1 0 --distance 0.02',
     'docs/unit.svg': 'plot unit',
 }
 
@@ -48,6 +50,7 @@ TOOLS = {
     'tools/list_entities.py': list_entities.main,
     'tools/list_parameters.py': list_parameters.main,
     'tools/list_permissions.py': list_permissions.main,
+    'tools/tip_force_tables.py': tip_force_tables.main,
     'tools/validate/tables.py': validate.tables.main,
 }
 

@@ -25,13 +25,15 @@ VERBS = {
     'tare': 'the biases of load cells from a recording of slack cables',
     'sweep': 'a map of the answers over both cable tensions, as a file',
     'track': 'follow the unit, with memory, through the tensions of a CSV file',
+    'tip-force': 'the forces at the tip that explain tensions and angle, as far as friction lets '
+    'one know',
     'invert': 'the tensions at which the unit is about to slip at a bend angle',
     'paper': "the paper's published case: bisection, errata, identified values, signs, other laws",
     'design': 'check a design file and show what is in it',
     'arm': 'units in series: where an arm is, and which of its joints slip',
     'plot': 'figures: Eq. (4), the unit, its hysteresis, maps, recordings, calibrations',
 }
-"""Verb → what it does; the module of the same name has the rest."""
+"""Verb → what it does; the module of the same name, with _ for -, has the rest."""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -88,7 +90,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for verb, description in VERBS.items():
         subparser = verbs.add_parser(verb, help=description, description=description)
         if verb in arguments[:1]:  # A verb that is not asked for is not loaded.
-            module = import_module(f'{__package__}.{verb}')
+            module = import_module(f'{__package__}.{verb.replace("-", "_")}')
             module.add_arguments(subparser)
             subparser.set_defaults(run=module.run)
             if verb == 'plot':

@@ -89,7 +89,7 @@ def add_tension_stddev_option(
     of_file = '' if default is not None else 'that of the design file, or '
     parser.add_argument(
         '--tension-stddev',
-        type=_deviation,
+        type=deviation,
         default=default,
         metavar='N',
         help=f'standard deviation of each tension in N; default: {of_file}{TENSION_STDDEV}',
@@ -119,14 +119,14 @@ def add_load_options(parser: argparse.ArgumentParser) -> None:
     add_tilt_options(group)
     group.add_argument(
         '--tip-force',
-        type=_finite,
+        type=finite,
         nargs=2,
         metavar=('X', 'Z'),
         help='force on the unit in N, fixed in the joint frame',
     )
     group.add_argument(
         '--tip-distance',
-        type=_finite,
+        type=finite,
         metavar='M',
         help="where it acts along the unit's axis, in m from the centre of the ball; default: "
         'tip_distance of the design file',
@@ -138,13 +138,13 @@ def add_tilt_options(group: argparse._ActionsContainer) -> None:
     direction = group.add_mutually_exclusive_group()
     direction.add_argument(
         '--base-tilt-deg',
-        type=_finite,
+        type=finite,
         metavar='DEG',
         help='tilt of the base in the plane of bending in degrees, positive towards cable s',
     )
     direction.add_argument(
         '--gravity-direction',
-        type=_finite,
+        type=finite,
         nargs=3,
         metavar=('X', 'Y', 'Z'),
         help='or the direction of gravity, of any length: X towards cable s, Z along the unit at '
@@ -179,7 +179,8 @@ def load_from(options: argparse.Namespace, unit: Unit) -> Load:
     return Load(tuple(direction or UPRIGHT.gravity_direction), *tip)
 
 
-def _finite(text: str) -> float:
+def finite(text: str) -> float:
+    """Return a finite number that was typed."""
     try:
         value = float(text)
     except ValueError:
@@ -189,8 +190,8 @@ def _finite(text: str) -> float:
     return value
 
 
-def _deviation(text: str) -> float:
-    """Return a standard deviation, which has to be finite and above 0."""
+def deviation(text: str) -> float:
+    """Return a standard deviation that was typed, which has to be finite and above 0."""
     try:
         value = float(text)
     except ValueError:

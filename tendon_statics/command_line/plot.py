@@ -16,9 +16,10 @@ FIGURES = {
     'can hold',
     'map': 'bend angle, pressure or sensitivity over both cable tensions',
     'recording': 'a recorded session and what the model says of it, over time',
+    'tip-force': 'what a recorded session tells of a force at the tip, over time',
     'calibration': 'how well a fitted design meets a recorded session',
 }
-"""Figure → what it shows; the module ``figure_...`` has the rest"""
+"""Figure → what it shows; the module ``figure_...``, with _ for -, has the rest"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     figures = parser.add_subparsers(dest='figure', metavar='FIGURE', required=True)
     for name, description in FIGURES.items():
         figure_parser = figures.add_parser(name, help=description, description=description)
-        module = import_module(f'{__package__}.figure_{name}')
+        module = import_module(f'{__package__}.figure_{name.replace("-", "_")}')
         module.add_arguments(figure_parser)
         figure_parser.set_defaults(module=module)
         figure_parser.add_argument(

@@ -16,6 +16,7 @@ from ..recordings.replay.bag_output import write_bag
 from ..recordings.replay.estimates import replay
 from ..recordings.replay.result import Replay
 from ..recordings.replay.table_output import write_table
+from ..recordings.replay.tip_forces import TipForces
 from .options import (
     UsageError,
     add_design_option,
@@ -27,6 +28,7 @@ from .options import (
 )
 from .progress import with_progress
 from .recorded_load import recorded_load
+from .recorded_tip_force import recorded_tip_forces, tip_force_facts
 from .recording_options import (
     add_recording_options,
     report_damage,
@@ -34,6 +36,7 @@ from .recording_options import (
 )
 from .replay_text import replay_facts
 from .tables import fact_lines
+from .tip_force_options import add_bend_angle_stddev_option, add_line_options
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -43,6 +46,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_estimation_options(parser)
     add_load_options(parser)
     add_tension_stddev_option(parser, default=None)
+    add_line_options(parser, required=False)
+    add_bend_angle_stddev_option(parser)
     parser.add_argument(
         '--output',
         type=Path,
@@ -90,9 +95,14 @@ def run(options: argparse.Namespace) -> int:
             'is; name another file'
         )
     replayed = replay_from(options, unit, unit.design, recording)
+    facts = replay_facts(replayed, unit, unit.design)
+    tips = None
+    if options.direction is not None:
+        tips = recorded_tip_forces(options, unit, recording)
+        facts = [*facts, *tip_force_facts(tips)]
     if write is not None:
-        write(options.output, replayed, with_progress)
-    print(fact_lines(replay_facts(replayed, unit, unit.design)))
+        write(options.output, replayed, tips, with_progress)
+    print(fact_lines(facts))
     if write is not None:
         say_written(options.output, options)
     return report_damage(recording)
@@ -141,13 +151,18 @@ def _writer(path: Path | None) -> _Writer | None:
     return _WRITERS[path.suffix]
 
 
-def _write_table(path: Path, replayed: Replay, progress: Progress) -> None:
-    write_table(path, replayed.columns(), progress)
+def _write_table(path: Path, replayed: Replay, tips: TipForces | None, progress: Progress) -> None:
+    columns = replayed.columns() | ({} if tips is None else tips.columns())
+    write_table(path, columns, progress)
 
 
-_Writer = Callable[[Path, Replay, Progress], None]
+def _write_bag(path: Path, replayed: Replay, _tips: TipForces | None, progress: Progress) -> None:
+    write_bag(path, replayed, progress)
+
+
+_Writer = Callable[[Path, Replay, TipForces | None, Progress], None]
 _WRITERS: dict[str, _Writer] = {
     '.csv': _write_table,
     '.parquet': _write_table,
-    '.mcap': write_bag,
+    '.mcap': _write_bag,
 }

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import sys
 from html import escape
 from pathlib import Path
 
 from ..files.output_file import OutputError
+from ..files.unit_file import Unit
 from ..physics import CalibrationError, JointDesign, design_fields
 from ..physics.calibration.load_cells import AS_MEASURED
 from ..recordings.errors import RecordingError
 from ..recordings.recording import Recording
 from ..recordings.scaling import corrected
-from . import figure_calibration, figure_recording
+from . import figure_calibration, figure_recording, figure_tip_force
 from .calibration_options import (
     Fitted,
     add_calibration_options,
@@ -34,10 +36,12 @@ from .figure_recording import draw_replay
 from .figures import svg_of
 from .options import add_design_option, add_load_options, design_name, say_written
 from .page import fact_table, table, warning, write_page
+from .recorded_tip_force import recorded_tip_forces, tip_force_facts
 from .recording_options import add_recording_options, report_damage, unit_and_recording
 from .replay import add_estimation_options, replay_from
 from .replay_text import replay_facts
 from .tables import Facts
+from .tip_force_options import add_line_options
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -47,6 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_estimation_options(parser)
     add_load_options(parser)
     add_calibration_options(parser)
+    add_line_options(parser, required=False)
     parser.add_argument(
         '--output', type=Path, required=True, metavar='FILE.html', help='the report'
     )
@@ -87,6 +92,7 @@ def run(options: argparse.Namespace) -> int:
             lambda drawing: draw_replay(drawing, design, replayed),
             figure_recording.SIZE,
         ),
+        *_tip_force_part(options, unit, design, recording),
         *fitted,
         '<h2>Design</h2>',
         _design_table(start, design),
@@ -96,6 +102,28 @@ def run(options: argparse.Namespace) -> int:
     if note:
         print(note, file=sys.stderr)
     return report_damage(recording)
+
+
+def _tip_force_part(
+    options: argparse.Namespace, unit: Unit, design: JointDesign, recording: Recording
+) -> list[str]:
+    """What the recording tells of a force at the tip, if it is asked for."""
+    if options.direction is None:
+        return []
+    settings = dataclasses.replace(unit.settings, design=design)
+    unit = dataclasses.replace(unit, settings=settings)
+    try:
+        found = recorded_tip_forces(options, unit, recording, figure_tip_force.MOST)
+    except RecordingError as error:
+        return ['<h2>Force at the tip</h2>', warning(str(error))]
+    return [
+        '<h2>Force at the tip</h2>',
+        fact_table(tip_force_facts(found)),
+        svg_of(
+            lambda drawing: figure_tip_force.draw_tip_forces(drawing, recording, found),
+            figure_tip_force.SIZE,
+        ),
+    ]
 
 
 def _calibration_part(fit: Fitted, recording: Recording, facts: Facts) -> list[str]:

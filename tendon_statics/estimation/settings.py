@@ -56,6 +56,9 @@ class Settings:
     """s"""
     tip_distance: float = 0.0
     """m"""
+    tip_direction: tuple[float, float, float] = (1.0, 0.0, 0.0)
+    """In the joint frame; along which a force at the tip is looked for"""
+    tip_force_level: float = 0.95
     tare_time: float = 2.0
     """s"""
     tare_limit: float = 0.5

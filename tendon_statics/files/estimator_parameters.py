@@ -77,7 +77,7 @@ NUMBERS = (
     NumberParameter(
         'measured_bend_angle_stddev',
         Settings.measured_bend_angle_stddev,
-        '`filtering`: standard deviation of what comes on `measured_bend_angle`',
+        '`filtering` and `tip_force`: standard deviation of what comes on `measured_bend_angle`',
         minimum=1e-6,
         maximum=1.0,
         unit='rad',
@@ -155,10 +155,18 @@ NUMBERS = (
     NumberParameter(
         'tip_distance',
         Settings.tip_distance,
-        "distance along the unit's axis at which the force of `tip_wrench` acts",
+        "distance along the unit's axis at which the force of `tip_wrench` acts, and that which "
+        '`tip_force` looks for',
         minimum=-10.0,
         maximum=10.0,
         unit='m',
+    ),
+    NumberParameter(
+        'tip_force_level',
+        Settings.tip_force_level,
+        'rate at which the intervals of `~/tip_force` hold the true force, or more',
+        minimum=0.5,
+        maximum=0.9999,
     ),
     NumberParameter(
         'tare_time',
@@ -191,6 +199,12 @@ VECTORS = (
         Settings.imu_mounting,
         '`imu`: roll, pitch and yaw of the IMU in the joint frame, as in URDF',
         unit='rad',
+    ),
+    VectorParameter(
+        'tip_direction',
+        Settings.tip_direction,
+        'unit vector in the plane of bending, in the joint frame, along which `tip_force` looks '
+        'for a force',
     ),
 )
 
@@ -236,6 +250,12 @@ WIRING = (
         'tip_wrench',
         False,
         'whether the force on the tip comes on `tip_wrench`; else there is none',
+    ),
+    SwitchParameter(
+        'tip_force',
+        False,
+        'whether there are `~/tip_force`, `~/tip_wrench` and `~/solve_tip_force`: what else '
+        'pushes at the tip; the angle is taken from `measured_bend_angle` where it comes',
     ),
     TextParameter(
         'frame_id',

@@ -13,6 +13,7 @@ from ..physics import Load
 from ..physics.admissible import check_bend_angle
 from ..physics.design import JointDesign, design_fields
 from ..physics.errors import BendAngleError, DesignError, DesignMisfitError, LoadError
+from ..physics.load import push_along
 from ..tensions.cable_scale import CableScale
 from ..tensions.watch import Plausibility
 from .design_file import check_uncertainty, uncertainty_in
@@ -26,7 +27,7 @@ from .estimator_parameters import (
 )
 from .parameter_kinds import MisfitError, Parameter, SettingError
 
-GRAVITY_DIRECTION = 'gravity_direction'
+GRAVITY_DIRECTION, TIP_DIRECTION = 'gravity_direction', 'tip_direction'
 
 
 def misspelt(names: Mapping[str, object]) -> list[str]:
@@ -62,8 +63,7 @@ def check_parameters(values: Mapping[str, object]) -> None:
         check_uncertainty(values)
     except DesignError as error:
         raise _refusal(error) from error
-    if GRAVITY_DIRECTION in values:
-        _check_direction(values[GRAVITY_DIRECTION])
+    _check_directions(values)
 
 
 def settings_from(values: Mapping[str, Any]) -> Settings:
@@ -134,11 +134,17 @@ def _refusal(error: DesignError, prefix: str = '') -> SettingError:
     return kind(f'{prefix}{error}')
 
 
-def _check_direction(direction: Any) -> None:
+def _check_directions(values: Mapping[str, Any]) -> None:
     try:
-        Load(tuple(map(float, direction)))  # type: ignore[arg-type]
+        if GRAVITY_DIRECTION in values:
+            Load(tuple(map(float, values[GRAVITY_DIRECTION])))  # type: ignore[arg-type]
     except LoadError as error:
         raise SettingError(str(error)) from None
+    try:
+        if TIP_DIRECTION in values:
+            push_along(tuple(map(float, values[TIP_DIRECTION])), 0.0)
+    except LoadError as error:
+        raise SettingError(f'tip_{error}') from None
 
 
 def _cable_scale(cable: str, number: Mapping[str, float]) -> CableScale:

@@ -31,6 +31,7 @@ from .parameters.estimator import Wiring, declare_settings, declare_wiring, read
 from .parameters.unknown import warn_of_unknown_parameters
 from .program import StartError
 from .services import Services
+from .tip_force import TipForces
 from .watchdog import Watchdog, throttled
 
 UNCONFIGURED, INACTIVE, ACTIVE, FINALIZED = 'unconfigured', 'inactive', 'active', 'finalized'
@@ -67,7 +68,8 @@ class Estimator(LifecycleNode):
         self._load = LoadInputs(self._wiring, lambda: self.unit.settings, self._warn_of_load)
         for topic, of_topic in self._load.inputs.items():
             self._inputs.add(topic, *of_topic)
-        if METHODS[self._wiring.estimation].remembers:
+        self._tip_forces = TipForces(self) if self._wiring.tip_force else None
+        if METHODS[self._wiring.estimation].remembers or self._wiring.tip_force:
             self._inputs.add('measured_bend_angle', Float64, self._on_measured_bend_angle)
         self._answers = Services(self)
         self._reports = Reports(self, self._outputs, self._inputs, self._load, left_out)
@@ -136,6 +138,8 @@ class Estimator(LifecycleNode):
         """Begin to estimate."""
         self._inputs.let_pass_what_waits()
         self._answers.forget_readings()
+        if self._tip_forces is not None:
+            self._tip_forces.forget()
         if self._has_run:
             self.unit.doubt()  # It may have moved while nobody looked.
         self._has_run = True
@@ -221,6 +225,8 @@ class Estimator(LifecycleNode):
         self._outputs.publish(estimate, stamp)
         if self._outputs.committed is not None:
             self._outputs.committed.publish(unit, measured, stamp)
+        if self._tip_forces is not None:
+            self._tip_forces.publish(estimate, stamp)
         self.health.note_lag(lag, unit.settings.input_timeout)
         self._source.tighten()
         self._watchdog.note_valid(was_stale=was_stale)
@@ -249,6 +255,8 @@ class Estimator(LifecycleNode):
 
     def _on_measured_bend_angle(self, message: Float64) -> None:
         try:
+            if self._tip_forces is not None:
+                self._tip_forces.note_angle(message.data)
             self.unit.measure(message.data, time.monotonic())
         except BendAngleError as error:
             self.rejected_corrections += 1

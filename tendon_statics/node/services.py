@@ -39,20 +39,21 @@ class Services:
                 'in the folder interfaces/: colcon build --base-paths . interfaces'
             )
         else:
-            self._offer(messages.Solve, 'solve', self._solve, messages.refuse_solve)
-            self._offer(
-                messages.SolveInverse, 'solve_inverse', self._invert, messages.refuse_inverse
+            offer(node, messages.Solve, 'solve', self._solve, messages.refuse_solve)
+            offer(
+                node, messages.SolveInverse, 'solve_inverse', self._invert, messages.refuse_inverse
             )
-            self._offer(
+            offer(
+                node,
                 messages.LoadDesign,
                 'load_design',
                 functools.partial(load_design, node),
                 messages.refuse,
                 in_every_state=True,
             )
-        self._offer(Trigger, 'solve_latest', self._solve_latest, messages.refuse)
-        self._offer(Trigger, 'reset', self._reset, messages.refuse)
-        self._offer(Trigger, 'tare', self._tare, messages.refuse)
+        offer(node, Trigger, 'solve_latest', self._solve_latest, messages.refuse)
+        offer(node, Trigger, 'reset', self._reset, messages.refuse)
+        offer(node, Trigger, 'tare', self._tare, messages.refuse)
         # rclpy raises where a transition does not exist in the present state, through the
         # executor, and that would end the node.
         change = node._service_change_state
@@ -69,32 +70,6 @@ class Services:
     def forget_readings(self) -> None:
         """Forget what load cells said."""
         self._recent.clear()
-
-    def _offer(
-        self,
-        service_type: type,
-        name: str,
-        answer: Callable[[Any, Any], Any],
-        refuse: Callable[[Any, str], Any],
-        *,
-        in_every_state: bool = False,
-    ) -> None:
-        node = self._node
-
-        def on_request(request: Any, response: Any) -> Any:
-            if node.is_active or in_every_state:
-                return answer(request, response)
-            full_name = node.get_fully_qualified_name()
-            return refuse(
-                response, f'{full_name} is {node.state_label}; it answers when it is active'
-            )
-
-        node.create_service(
-            service_type,
-            f'~/{name}',
-            on_request,
-            qos_profile=QoSProfile(depth=node.wiring.service_depth),
-        )
 
     def _solve(
         self, request: messages.Solve.Request, response: messages.Solve.Response
@@ -211,3 +186,24 @@ class Services:
             self._node.get_logger().error(f'No such transition now: {error}')
             response.success = False
             return response
+
+
+def offer(
+    node: Estimator,
+    service_type: type,
+    name: str,
+    answer: Callable[[Any, Any], Any],
+    refuse: Callable[[Any, str], Any],
+    *,
+    in_every_state: bool = False,
+) -> None:
+    """Create a service that answers while the node is active, or always, and else refuses."""
+
+    def on_request(request: Any, response: Any) -> Any:
+        if node.is_active or in_every_state:
+            return answer(request, response)
+        full_name = node.get_fully_qualified_name()
+        return refuse(response, f'{full_name} is {node.state_label}; it answers when it is active')
+
+    depth = QoSProfile(depth=node.wiring.service_depth)
+    node.create_service(service_type, f'~/{name}', on_request, qos_profile=depth)

@@ -31,6 +31,8 @@ from .load import UPRIGHT, Load
 from .solver import residual, solve
 from .state import Equilibrium, Regime
 from .tensions import Tensions
+from .tip_force import TipForce, tip_force, tip_force_intervals
+from .tip_force_state import tip_force_of_state
 from .tracker import StickSlipTracker
 from .uncertainty import SlipAngleDistribution, slip_angle_distribution
 
@@ -87,6 +89,7 @@ __all__ = [
     'TensionError',
     'TensionGradient',
     'Tensions',
+    'TipForce',
     'TipPose',
     'UnreachableError',
     'admissible_angles',
@@ -104,6 +107,9 @@ __all__ = [
     'solve',
     'solve_batch',
     'tensions_for',
+    'tip_force',
+    'tip_force_intervals',
+    'tip_force_of_state',
 ]
 
 

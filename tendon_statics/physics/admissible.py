@@ -69,12 +69,13 @@ def slip_margin(
     Raises
     ------
     TensionError
-        As `solve` does, and for a slack cable.
+        As `solve` does, and for a slack cable; the joint has to be seated at this angle alone.
     BendAngleError
         If the angle is not a number or lies beyond the stop.
     """
-    slip = taut_slip(design, check_tensions(tension_l, tension_s), load)
-    return slip.margin(check_bend_angle(design, bend_angle))
+    tensions = check_tensions(tension_l, tension_s)
+    angle = check_bend_angle(design, bend_angle)
+    return taut_slip(design, tensions, load, bend_angle=angle).margin(angle)
 
 
 def check_bend_angle(design: JointDesign, bend_angle: float) -> float:

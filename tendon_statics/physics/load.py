@@ -171,6 +171,56 @@ class DeadLoad(NamedTuple):
         )
 
 
+UNIT_LENGTH = 1e-3
+"""By how much the length of a direction may differ from 1, as of numbers typed by hand"""
+
+IN_PLANE = 1e-9
+"""Share of a direction across the plane of bending that may be rounding"""
+
+FARTHEST = 10.0
+"""m; more than any unit's length"""
+
+
+def push_along(direction: Sequence[float], distance: float) -> DeadLoad:
+    """Return what each newton of a force at the tip adds to a dead load.
+
+    Parameters
+    ----------
+    direction : sequence of float
+        Unit vector ``(x, z)``, or ``(x, y, z)`` with y of 0, in the joint frame.
+    distance : float
+        Where the force acts along the unit's axis, in m from the centre of the ball.
+
+    Raises
+    ------
+    LoadError
+        If the direction is no unit vector in the plane of bending, or the distance no number.
+    """
+    is_spatial = hasattr(direction, '__len__') and len(direction) == 3
+    parts = ('x', 'y', 'z') if is_spatial else ('x', 'z')
+    x, *between, z = _numbers('direction', direction, parts)
+    length = math.hypot(x, *between, z)
+    if length == 0.0:
+        raise LoadError(
+            f'direction is {direction!r}, which is of length zero: a unit vector is needed'
+        )
+    if any(abs(y) > IN_PLANE * length for y in between):
+        raise LoadError(
+            f'direction is {direction!r}, out of the plane of bending: y has to be 0, since the '
+            'guides carry what acts across that plane'
+        )
+    if not abs(length - 1.0) <= UNIT_LENGTH:
+        raise LoadError(
+            f'direction is {direction!r}, of length {length:.6g}: a unit vector is needed, '
+            f'such as ({x / length:.6g}, {z / length:.6g})'
+        )
+    (lever,) = _numbers('distance', (distance,), ('distance',))
+    if not abs(lever) <= FARTHEST:
+        raise LoadError(f'distance is {lever!r} m, allowed is up to {FARTHEST:g} m either way')
+    x, z = x / length, z / length
+    return DeadLoad(x, z, lever * x, lever * z)
+
+
 def _numbers(name: str, values: object, parts: Sequence[str]) -> tuple[float, ...]:
     """Return finite floats.
 

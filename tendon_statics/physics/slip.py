@@ -274,8 +274,9 @@ class Slip:
         return self.probe(angle)[1]
 
     def moment_at(self, angle: Any) -> Any:
-        """Return M in units of r T, ahead, at an angle ahead in rad."""
-        return self.probe(angle)[5]
+        """Return M in units of r T, ahead, at an angle ahead in rad, seated or not."""
+        turning = self._of_cosine * self._cosine(angle) + self._of_sine * self._sine(angle)
+        return self._offset + turning + self._of_angle * angle
 
     def margin(self, angle: float) -> float:
         """M / K at an angle ahead in rad, with the capacity on the side of M.

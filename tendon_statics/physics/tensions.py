@@ -49,8 +49,36 @@ def check_tensions(tension_l: object, tension_s: object) -> Tensions:
     return Tensions(tension_l, tension_s)
 
 
-def taut_slip(design: JointDesign, tensions: Tensions, load: Load, side: float = 1.0) -> Slip:
+def check_taut(tensions: Tensions) -> Tensions:
+    """Return two tensions of which neither is that of a slack cable.
+
+    Raises
+    ------
+    TensionError
+        If one is.
+    """
+    if tensions.slack_cable:
+        raise TensionError(
+            f'tension_{tensions.slack_cable} is 0.0 N: the cable is slack, '
+            'which is outside the model'
+        )
+    return tensions
+
+
+def taut_slip(
+    design: JointDesign,
+    tensions: Tensions,
+    load: Load,
+    side: float = 1.0,
+    bend_angle: float | None = None,
+) -> Slip:
     """Return the slip function of two taut cables towards cable s, or towards l for a side of −1.
+
+    Parameters
+    ----------
+    bend_angle : float, optional
+        The one angle in rad at which it is asked for, where the joint has to be seated; without
+        it at all between the stops.
 
     Raises
     ------
@@ -59,23 +87,25 @@ def taut_slip(design: JointDesign, tensions: Tensions, load: Load, side: float =
     """
     tension_l, tension_s = tensions
     if tension_l == 0.0 or tension_s == 0.0:
-        raise TensionError(
-            f'tension_{tensions.slack_cable} is 0.0 N: the cable is slack, '
-            'which is outside the model'
-        )
+        check_taut(tensions)
     joint = loaded_joint(design, load)
     excess = tension_excess(design, load, joint.size, tension_l, tension_s)
     if not excess > 0.0:
-        _check_that_it_presses(design, tensions, load)
+        _check_that_it_presses(design, tensions, load, bend_angle)
     return Slip(joint, excess, tension_l, tension_s, side)
 
 
-def _check_that_it_presses(design: JointDesign, tensions: Tensions, load: Load) -> None:
+def _check_that_it_presses(
+    design: JointDesign, tensions: Tensions, load: Load, bend_angle: float | None
+) -> None:
     """Refuse tensions that the dead load exceeds, unless it presses the unit on the ball."""
     dead = load.on(design)
     least = dead.size
     if design.law.carries_more_than_cables:
-        least = max(dead.largest_pull(design.max_bend_angle), NEGLIGIBLE_PULL * least)
+        pull = dead.largest_pull(design.max_bend_angle)
+        if bend_angle is not None:
+            pull = design.law.seating_tension(*dead.at(bend_angle))
+        least = max(pull, NEGLIGIBLE_PULL * least)
     if least == dead.size or not sum(tensions) > least:
         raise _unseated(tensions, load, least)
 

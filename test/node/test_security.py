@@ -30,6 +30,7 @@ CONFIGURATIONS = {
         ['estimation:=equilibrium', 'estimation:=tracking', 'estimation:=filtering'],
         ['gravity_source:=fixed', 'gravity_source:=imu', 'gravity_source:=pose'],
         ['tip_wrench:=false', 'tip_wrench:=true'],
+        ['tip_force:=false', 'tip_force:=true'],
         ['markers:=false', 'markers:=true'],
         TIMES,
     ],

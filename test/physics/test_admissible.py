@@ -1,5 +1,6 @@
 """`admissible_angles` and `slip_margin` against a brute-force oracle and each other."""
 
+import dataclasses
 import math
 from itertools import pairwise
 
@@ -10,7 +11,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from thoroughness import examples
 
-from tendon_statics import JointDesign, Regime, TensionError, solve
+from tendon_statics import JointDesign, Load, Regime, TensionError, solve
 from tendon_statics.physics import (
     BendAngleError,
     StickSlipTracker,
@@ -181,3 +182,16 @@ def test_a_result_knows_the_admissible_angles_of_its_tensions(case):
     tracked = StickSlipTracker(design, 0.5 * design.max_bend_angle).update(tension_l, tension_s)
     assert tracked.admissible_angles == expected
     assert solve(design, 0.0, tension_s).admissible_angles == []
+
+
+def test_a_joint_has_to_be_seated_at_the_angle_that_is_asked_for_alone():
+    free = dataclasses.replace(PRELIMINARY, contact_law='friction_circle')
+    across = Load(tip_force=(3.0, 0.0))  # which pulls it off its ball as it bends towards s
+    for angle in (-0.5, 0.0):
+        assert math.isfinite(slip_margin(free, 0.4, 0.6, angle, across))
+    for ask in (
+        lambda: slip_margin(free, 0.4, 0.6, 0.5, across),
+        lambda: solve(free, 0.4, 0.6, across),
+    ):
+        with pytest.raises(TensionError, match='must exceed'):
+            ask()

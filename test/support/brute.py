@@ -65,10 +65,12 @@ def forces(case: Case, angle):
 
 def capacity(case: Case, angle, side: float):
     """K at angles in rad, for slipping to a side."""
-    design = case.design
     _, axial, across = forces(case, angle)
-    ahead = side * across
-    total = case.tension_l + case.tension_s
+    return capacity_under(case.design, case.tension_l + case.tension_s, axial, side * across)
+
+
+def capacity_under(design: JointDesign, total: float, axial, ahead):
+    """K from T, P_a and P_t to the side of slip, in N."""
     mu, r = design.friction_coefficient, design.ball_radius
     if design.contact_law == 'merged':
         beta = 0.5 * (design.contact_start_angle + design.contact_end_angle)
@@ -90,6 +92,28 @@ def excess(case: Case, angle, side: float):
     """±M − K in N m, above 0 where the unit slips to the side."""
     moment, _, _ = forces(case, angle)
     return side * moment - capacity(case, angle, side)
+
+
+def seats(design: JointDesign, total: float, axial, ahead):
+    """Whether T, P_a and P_t leave the unit on its ball."""
+    if design.contact_law == 'merged':
+        return np.hypot(axial, ahead) < total
+    return total + axial > 0.0
+
+
+def excesses_under_push(case: Case, angle: float, direction, distance: float, force):
+    """±M − K in N m for slipping to s and to l under more forces along a line, and the seat."""
+    axis = np.array([np.sin(angle), np.cos(angle)])
+    across = np.array([np.cos(angle), -np.sin(angle)])
+    moment, axial, ahead = forces(case, angle)
+    moment = moment + distance * force * (direction @ across)
+    axial, ahead = axial - force * (direction @ axis), ahead + force * (direction @ across)
+    total = case.tension_l + case.tension_s
+    seated = seats(case.design, total, axial, ahead)
+    with np.errstate(all='ignore'):
+        towards_s = moment - capacity_under(case.design, total, axial, ahead)
+        towards_l = -moment - capacity_under(case.design, total, axial, -ahead)
+    return towards_s, towards_l, seated
 
 
 def margin(case: Case, angle: float) -> float:

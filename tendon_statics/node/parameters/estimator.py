@@ -27,6 +27,7 @@ class Wiring(NamedTuple):
     estimation: str
     gravity_source: str
     tip_wrench: bool
+    tip_force: bool
     frame_id: str
     joint_name: str
     markers: bool

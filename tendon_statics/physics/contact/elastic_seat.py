@@ -8,6 +8,7 @@ from typing import Any
 from .friction_circle import FrictionCircleLaw
 from .law import ContactLaw, ContactShares, LoadedLaw, LoadShare, NormalSlopes, State
 from .numbers import Numbers, wave_bounds
+from .quadratic import Line, real_roots
 from .zone import seat_constants
 
 
@@ -52,6 +53,17 @@ class ElasticSeatLaw(ContactLaw):
 
     def total_tension(self, axial: float, ahead: float, normal: float) -> float:
         return normal * self.divisor - axial - self.tilting * ahead
+
+    def forces_at_slip(self, moment: Line, axial: Line, ahead: Line) -> list[float]:
+        """Those of the seat, whose K is in proportion too, and those of the friction circle."""
+        start, slope = (
+            of_moment - self.gain * (alone + along + self.tilting * across)
+            for of_moment, alone, along, across in zip(
+                moment, (1.0, 0.0), axial, ahead, strict=True
+            )
+        )
+        of_circle = self.circle.forces_at_slip(moment, axial, ahead)
+        return [*real_roots((start, slope, 0.0)), *of_circle]
 
     def contact_area(self, ball_radius: float, contact_width: float) -> float:  # noqa: ARG002
         """The zone's, real: the pressure is in Pa whatever `contact_width` is."""

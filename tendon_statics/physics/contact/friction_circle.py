@@ -15,6 +15,7 @@ from .law import (
     State,
 )
 from .numbers import Numbers, scaled_bounds, wave_bounds
+from .quadratic import Line, combined, product, real_roots
 
 
 class FrictionCircleLaw(ContactLaw):
@@ -39,6 +40,12 @@ class FrictionCircleLaw(ContactLaw):
         if square < 0.0:
             return 0.0
         return math.sqrt(square) - axial
+
+    def forces_at_slip(self, moment: Line, axial: Line, ahead: Line) -> list[float]:
+        """Those with M² = K²."""
+        along, square = (1.0 + axial[0], axial[1]), -self.ratio * self.ratio
+        parts = (1.0, product(moment, moment)), (square, product(along, along))
+        return real_roots(combined(*parts, (square, product(ahead, ahead))))
 
 
 class LoadedFrictionCircleLaw(LoadedLaw):

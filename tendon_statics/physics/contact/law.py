@@ -23,6 +23,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .numbers import Numbers
+from .quadratic import Line, real_roots
 
 LEAST = 5e-324
 """Added to a root that may be zero, so that what is divided by it is infinite: no other number
@@ -135,6 +136,35 @@ class ContactLaw(ABC):
         axial, ahead, normal : float
             P_a, P_t and N in N.
         """
+
+    @abstractmethod
+    def forces_at_slip(self, moment: Line, axial: Line, ahead: Line) -> list[float]:
+        """Return all forces φ at which the unit is about to slip ahead, |M| = K.
+
+        In closed form, since with φ along a known line M and the dead load are in proportion to
+        it. There may be others among them, as of a quadratic of which one root alone counts.
+
+        Parameters
+        ----------
+        moment, axial, ahead : Line
+            M / (r T), P_a / T and P_t / T by φ, which is in shares of T.
+        """
+
+    def seating_tension(self, axial: float, ahead: float) -> float:  # noqa: ARG002
+        """T that has to be exceeded for the joint to be seated under a dead load, in its unit.
+
+        So much as keeps it from pulling the unit off the ball, unless a law says otherwise.
+
+        Parameters
+        ----------
+        axial, ahead : float
+            P_a and P_t.
+        """
+        return -axial
+
+    def forces_at_lift(self, axial: Line, ahead: Line) -> list[float]:  # noqa: ARG002
+        """Return all forces φ at which T is just `seating_tension`; see `forces_at_slip`."""
+        return real_roots((1.0 + axial[0], axial[1], 0.0))
 
     def contact_area(self, ball_radius: float, contact_width: float) -> float:
         """N / p in m², with the mean pressure p on the contact zone.

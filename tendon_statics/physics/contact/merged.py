@@ -15,6 +15,7 @@ from .law import (
     State,
 )
 from .numbers import Numbers, scaled_bounds, wave_bounds
+from .quadratic import Line, combined, product, real_roots
 
 
 class MergedLaw(ContactLaw):
@@ -47,6 +48,32 @@ class MergedLaw(ContactLaw):
     def total_tension(self, axial: float, ahead: float, normal: float) -> float:
         limit = self.friction * normal
         return normal + math.hypot(limit * self.cosine - ahead, limit * self.sine - axial)
+
+    def forces_at_slip(self, moment: Line, axial: Line, ahead: Line) -> list[float]:
+        """Those at which N = M / (μ r) is a root of the squared and added equations."""
+        normal = moment[0] / self.friction, moment[1] / self.friction
+        # The part of the dead load against which friction at its limit acts.
+        against = (
+            self.sine * axial[0] + self.cosine * ahead[0],
+            self.sine * axial[1] + self.cosine * ahead[1],
+        )
+        return real_roots(
+            combined(
+                (1.0, product((1.0, 0.0), (1.0 - 2.0 * normal[0], -2.0 * normal[1]))),
+                (1.0, product(normal, normal)),
+                (-1.0, product(moment, moment)),
+                (2.0, product(moment, against)),
+                *((-1.0, product(part, part)) for part in (axial, ahead)),
+            )
+        )
+
+    def seating_tension(self, axial: float, ahead: float) -> float:
+        """|P|: beyond it N is not real, or negative."""
+        return math.hypot(axial, ahead)
+
+    def forces_at_lift(self, axial: Line, ahead: Line) -> list[float]:
+        size = combined((1.0, product(axial, axial)), (1.0, product(ahead, ahead)))
+        return real_roots((size[0] - 1.0, size[1], size[2]))
 
 
 class LoadedMergedLaw(LoadedLaw):
