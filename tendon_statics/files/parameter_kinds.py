@@ -197,9 +197,12 @@ class ListParameter(Parameter):
 
     def check(self, value: object) -> None:
         """Raise a `SettingError` unless it is a sequence of what is in it."""
-        fits = _is_finite if self.of_numbers else _is_text
-        if not _is_list(value) or not all(map(fits, value)):
-            raise SettingError(f'{self.name} is {value!r}, but a list of {self.allowed} is needed')
+        if not _is_list(value):
+            raise SettingError(f'{self.name} is {value!r}, a list is needed')
+        fits, needed = (_is_finite, 'a finite number') if self.of_numbers else (_is_text, 'a name')
+        for one in value:
+            if not fits(one):
+                raise SettingError(f'{self.name} has {one!r}, {needed} is needed')
 
 
 _NUMBER = re.compile(r'[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?')
