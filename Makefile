@@ -8,20 +8,20 @@ PYTHON ?=
 run := set -euo pipefail; . tools/env.bash;
 
 sources := package.xml setup.py setup.cfg colcon.pkg colcon_defaults.yaml \
-  $(shell find tendon_statics config launch security urdf resource interfaces -type f \
+  $(shell find tendon_statics config launch layouts rviz security urdf resource interfaces -type f \
     -not -path '*/__pycache__/*' -not -name '*.swp')
 
 .PHONY: help
 help: ## List the targets
 	@echo 'Targets (PYTHON=/path/to/python3 chooses the Python of the set-up):'
-	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /  make \1\t/' | expand -t 16
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 20
 
 .PHONY: setup
 setup: install/.complete ## Install ROS 2 into .venv/ (or use apt's) and build into install/
 
 .PHONY: demo
-demo: setup ## Drive the estimator node over real ROS 2 and print what it publishes
-	@$(run) python tools/demo.py
+demo: setup ## Drive the estimator node over real ROS 2 and print what it publishes (VIEW=1: and show it live)
+	@$(run) python tools/demo.py$(if $(VIEW), && python tools/demo_view.py)
 
 .PHONY: test
 test: setup ## Run all tests (ARGS='-m node' chooses; with CI=1 more examples of each property)
@@ -57,6 +57,14 @@ measure-consistency: setup ## Measure how well the filter finds a model that is 
 measure-arm: setup ## Hold the arm against brute force on random arms (ARGS='--arms 200')
 	@$(run) python tools/measure_arm.py $(ARGS)
 
+.PHONY: measure-view
+measure-view: setup ## Measure what the live page costs at 500 Hz, in a real browser
+	@$(run) python tools/measure_view.py $(ARGS)
+
+.PHONY: picture
+picture: setup ## Make again the picture of the live page in docs/, in a real browser
+	@$(run) python tools/make_view_picture.py
+
 .PHONY: bench
 bench: setup ## Measure the speed beside NumPy, C and a bare relay; tables, and build/bench.json
 	@$(run) cd tools && python -m bench --json ../build/bench.json
@@ -73,6 +81,12 @@ lint: .venv/.complete ## Check style and types
 docs: setup ## Make again the tables and figures of docs/
 	@$(run) python tools/make_docs.py
 
+.PHONY: site
+site: setup .venv/.site ## Build the documentation as a site, build/site/index.html
+	@$(run) python -m sphinx --fail-on-warning --keep-going --quiet \
+	  --fresh-env --write-all -d build/site.doctrees docs build/site
+	@echo "== build/site/index.html"
+
 .PHONY: clean
 clean: ## Remove all that the targets made
 	rm -rf .venv build install log .hypothesis .mypy_cache .pytest_cache .ruff_cache
@@ -86,8 +100,14 @@ clean: ## Remove all that the targets made
 	@$(run) pip install --quiet -r $<
 	@touch $@
 
+.venv/.site: tools/requirements-site.txt .venv/.complete
+	@echo "== what the site needs: Sphinx, from $<"
+	@$(run) pip install --quiet -r $<
+	@touch $@
+
 install/.complete: .venv/.complete $(sources)
-	@echo "== building tendon_statics_interfaces and tendon_statics into install/"
-	@$(run) python -m colcon build --event-handlers console_cohesion- console_stderr-  desktop_notification- \
+	@echo "== building tendon_statics_interfaces and tendon_statics into install/ (half a minute)"
+	@$(run) python -m colcon build --event-handlers console_cohesion- console_stderr- \
+	    desktop_notification- summary- \
 	  || { echo 'tendon_statics: the build failed; log/latest_build has why' >&2; exit 1; }
 	@touch $@

@@ -10,12 +10,15 @@ from launch_ros.utilities import make_namespace_absolute, prefix_namespace
 from tendon_statics.launching.actions import (
     as_they_are,
     declared_node_arguments,
+    declared_rviz,
     own_node,
     robot_state_publisher,
+    rviz,
 )
 from tendon_statics.launching.base_turn import load_base_turn
 from tendon_statics.launching.joint_names import JointNames, load_joint_names
 from tendon_statics.launching.node_arguments import tension_remappings
+from tendon_statics.launching.rviz import Shown
 from tendon_statics.launching.unit_description import unit_description
 
 
@@ -52,6 +55,7 @@ def generate_launch_description():
                 description='whether a robot_state_publisher shows the unit in RViz',
             ),
             *declared_node_arguments(),
+            declared_rviz(),
             OpaqueFunction(function=start_estimator),
         ]
     )
@@ -67,17 +71,25 @@ def start_estimator(context):
     names = load_joint_names(params_file, node, default=JointNames())
     remappings = tension_remappings(arguments, params_file, node)
     actions = []
+    shows_rviz = arguments['rviz'] == 'true'
     # First, since it may be missing, and launch leaves running what it has started by then.
-    if arguments['robot_state_publisher'] == 'true':
+    if shows_rviz or arguments['robot_state_publisher'] == 'true':
         turn = load_base_turn(params_file, node)
         description = unit_description(params_file, names, base_turn=turn)
+        if shows_rviz:
+            shown = Shown(full_namespace.strip('/'), names.frame_id, turn is not None)
+            actions.append(rviz(arguments, [shown]))
         actions.append(robot_state_publisher(arguments, description, namespace))
     actions.append(
         own_node(
             arguments,
             'estimator',
             namespace,
-            parameters=[params_file, as_they_are(names._asdict())],
+            parameters=[
+                params_file,
+                as_they_are(names._asdict()),
+                *([{'markers': True}] if shows_rviz else []),
+            ],
             remappings=remappings,
         )
     )

@@ -9,10 +9,13 @@ from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from tendon_statics.launching.actions import (
     as_they_are,
     declared_node_arguments,
+    declared_rviz,
     own_node,
     robot_state_publisher,
+    rviz,
 )
 from tendon_statics.launching.rig_file import load_rig
+from tendon_statics.launching.rviz import Shown
 from tendon_statics.launching.unit_description import unit_description
 
 
@@ -38,6 +41,7 @@ def generate_launch_description():
                 description='whether a robot_state_publisher per joint shows the unit in RViz',
             ),
             *declared_node_arguments(),
+            declared_rviz(),
             OpaqueFunction(function=start_rig),
         ]
     )
@@ -47,8 +51,15 @@ def start_rig(context):
     arguments = context.launch_configurations
     joints = load_rig(arguments['rig_file'])
     actions = []
+    shows_rviz = arguments['rviz'] == 'true'
     # First, since it may be missing, and launch leaves running what it has started by then.
-    if arguments['robot_state_publisher'] == 'true':
+    if shows_rviz:
+        shown = [
+            Shown(joint.namespace, joint.names.frame_id, joint.base_turn is not None)
+            for joint in joints
+        ]
+        actions.append(rviz(arguments, shown))
+    if shows_rviz or arguments['robot_state_publisher'] == 'true':
         actions += [
             robot_state_publisher(
                 arguments,
@@ -60,8 +71,10 @@ def start_rig(context):
             )
             for joint in joints
         ]
+    markers = {'markers': True} if shows_rviz else {}
     actions += [
-        node(arguments, joint, 'estimator', joint.estimator_parameters()) for joint in joints
+        node(arguments, joint, 'estimator', joint.estimator_parameters() | markers)
+        for joint in joints
     ]
     if arguments['simulate'] == 'true':
         actions += [

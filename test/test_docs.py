@@ -1,12 +1,17 @@
 """The documentation says what the program prints and what the node has."""
 
 import re
+from xml.etree import ElementTree
 
 import pytest
+import yaml
 from make_docs import FIGURES, PAGES, ROOT, made
 
+import tendon_statics
+
 WRITTEN = ['README.md', 'CONTRIBUTING.md']
-README = (ROOT / 'README.md').read_text(encoding='utf-8')
+ALL = sorted(p.relative_to(ROOT) for p in ROOT.glob('docs/**/*.md')) + WRITTEN
+REFERENCE = (ROOT / 'docs/node_reference.md').read_text(encoding='utf-8')
 
 
 @pytest.mark.parametrize('page', PAGES)
@@ -16,7 +21,7 @@ def test_tables_are_what_the_program_prints(page):
     assert made(text) == text, 'run `make docs`'
 
 
-@pytest.mark.parametrize('page', [p.relative_to(ROOT) for p in ROOT.glob('docs/*.md')] + WRITTEN)
+@pytest.mark.parametrize('page', ALL)
 def test_links_to_files_lead_somewhere(page):
     path = ROOT / page
     for target in re.findall(r'\]\((?!http)([^)#]+)', path.read_text(encoding='utf-8')):
@@ -29,7 +34,7 @@ def test_figures_are_shown_somewhere(figure):
     assert any(name in (ROOT / page).read_text(encoding='utf-8') for page in PAGES)
 
 
-def test_the_readme_names_everything_the_node_has():
+def test_the_reference_names_everything_the_node_has():
     """Asked of the node itself: its topics, services and parameters."""
     from list_entities import entities, estimator
 
@@ -43,7 +48,33 @@ def test_the_readme_names_everything_the_node_has():
     for name in [name for names in found.values() for name in names]:
         if not of_ros.fullmatch(name):
             written = name if name == '/diagnostics' else name.removeprefix('/')
-            assert f'`{written}`' in README
+            assert f'`{written}`' in REFERENCE
     for name in parameters:
         if not name.startswith(('qos_overrides.', 'use_sim_time', 'start_type_description')):
-            assert f'`{name}`' in README, name
+            assert f'`{name}`' in REFERENCE, name
+
+
+def test_every_public_name_is_on_one_page_of_the_api():
+    pages = [path.read_text(encoding='utf-8') for path in ROOT.glob('docs/api/*.md')]
+    shown = [name for page in pages for name in re.findall(r'\.\. auto\w+:: (\S+)', page)]
+    assert sorted(shown) == sorted(tendon_statics.__all__)
+
+
+def test_every_page_is_in_a_table_of_contents():
+    index = (ROOT / 'docs/index.rst').read_text(encoding='utf-8')
+    named = set(re.findall(r'^   ([\w/]+)$', index, re.MULTILINE))
+    pages = {
+        path.relative_to(ROOT / 'docs').with_suffix('').as_posix()
+        for pattern in ('*.md', '*.rst')
+        for path in ROOT.glob(f'docs/**/{pattern}')
+    }
+    assert named == pages - {'index'}
+
+
+def test_rosdoc2_is_led_to_the_pages():
+    (configuration,) = ElementTree.parse(ROOT / 'package.xml').iterfind('export/rosdoc2')
+    kind, settings = yaml.safe_load_all((ROOT / configuration.text).read_text(encoding='utf-8'))
+    assert kind == {'type': 'rosdoc2 config', 'version': 1}
+    assert (ROOT / settings['settings']['python_source'] / '__init__.py').is_file()
+    (builder,) = settings['builders']
+    assert (ROOT / builder['sphinx']['sphinx_sourcedir'] / 'conf.py').is_file()

@@ -1,4 +1,4 @@
-"""Print the parameters of the estimator but for the design's, for the README."""
+"""Print the parameters of the estimator but for the design's, for docs/node_reference.md."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import json
 
 from tendon_statics.command_line.tables import markdown_table
 from tendon_statics.files.estimator_parameters import ESTIMATOR_PARAMETERS
-from tendon_statics.files.parameter_kinds import Parameter
+from tendon_statics.files.parameter_kinds import ListParameter, Parameter, VectorParameter
 
 
 def main() -> None:
@@ -19,14 +19,31 @@ def table(parameters: tuple[Parameter, ...], *, says_fixed: bool = True) -> str:
     rows = [
         (
             f'`{parameter.name}`',
+            kind_of(parameter),
             f'`{json.dumps(parameter.default)}`',
-            parameter.allowed,
+            allowed(parameter),
             parameter.description
             + ('; fixed at the start' if parameter.is_fixed and says_fixed else ''),
         )
         for parameter in parameters
     ]
-    return markdown_table(('parameter', 'default', 'allowed', ''), rows)
+    return markdown_table(('parameter', 'type', 'default', 'allowed', 'meaning'), rows)
+
+
+def allowed(parameter: Parameter) -> str:
+    """Say what a parameter may be, with its unit; what is allowed of a number ends with it."""
+    unit = parameter.unit if isinstance(parameter, VectorParameter) else ''
+    return f'{parameter.allowed}, {unit}' if unit else parameter.allowed
+
+
+def kind_of(parameter: Parameter) -> str:
+    """Return the type as ROS calls it, say ``double`` or ``string[]``."""
+    names = {bool: 'bool', int: 'integer', float: 'double', str: 'string'}
+    if isinstance(parameter, ListParameter):
+        return 'double[]' if parameter.of_numbers else 'string[]'
+    if isinstance(parameter.default, tuple):
+        return f'{names[type(parameter.default[0])]}[]'
+    return names[type(parameter.default)]
 
 
 if __name__ == '__main__':

@@ -14,23 +14,34 @@ import sys
 from contextlib import redirect_stdout
 from pathlib import Path
 
+import friction_figures
 import list_driver_parameters
 import list_entities
 import list_parameters
 import list_permissions
+import list_view_parameters
 import measure_filter.figure
+import node_reference
 import tip_force_tables
 import validate.figure
 import validate.tables
+from run_page import run_page
 
 from tendon_statics.command_line.main import main as run
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = (
     'README.md',
-    *('docs/arm.md', 'docs/calibration.md', 'docs/recordings.md', 'docs/model.md', 'docs/node.md'),
-    *('docs/rig.md', 'docs/security.md', 'docs/tip_force.md', 'docs/validation.md'),
+    *('docs/arm.md', 'docs/calibration.md', 'docs/contact_laws.md', 'docs/recordings.md'),
+    *('docs/model.md', 'docs/node.md', 'docs/node_reference.md', 'docs/rig.md'),
+    *('docs/security.md', 'docs/tip_force.md', 'docs/validation.md', 'docs/view.md'),
 )
+TUTORIALS = tuple(
+    f'docs/tutorials/{name}.md'
+    for name in ('first_estimate', 'own_unit', 'three_joints', 'bag_to_report')
+)
+"""Pages whose blocks are run in order, as a reader would"""
+
 SESSION = 'config/recorded_session.mcap'
 FIGURES = {
     'docs/arm.svg': 'arm plot config/arm.yaml config/arm_tensions.csv',
@@ -50,7 +61,9 @@ TOOLS = {
     'tools/list_entities.py': list_entities.main,
     'tools/list_parameters.py': list_parameters.main,
     'tools/list_permissions.py': list_permissions.main,
+    'tools/node_reference.py': node_reference.main,
     'tools/tip_force_tables.py': tip_force_tables.main,
+    'tools/list_view_parameters.py': list_view_parameters.main,
     'tools/validate/tables.py': validate.tables.main,
 }
 
@@ -87,6 +100,10 @@ def main() -> int:
     """Rewrite the pages and figures."""
     for name in PAGES:
         make_page(name)
+    for name in TUTORIALS:
+        path = ROOT / name
+        path.write_text(run_page(path.read_text(encoding='utf-8')), encoding='utf-8')
+    friction_figures.write(ROOT / 'docs')
     measure_filter.figure.write(ROOT / 'docs/filter.svg')
     for name, arguments in FIGURES.items():
         if run([*shlex.split(arguments), '--output', str(ROOT / name)]) != 0:

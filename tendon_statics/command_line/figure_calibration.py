@@ -99,10 +99,27 @@ def _draw_distances(axes: Axes, calibration: Calibration, recording: Recording) 
     shown = np.concatenate([before[slipping], after[slipping], after[held], [-4.0, 4.0]])
     axes.set_ylim(1.5 * np.nanmin(shown), 1.5 * np.nanmax(shown))
     axes.set_xlabel('measured bend angle θ [°]')
-    axes.set_ylabel('distance from the boundary\nof slip [standard deviations]')
+    axes.set_ylabel('distance from the boundary of slip\n[standard deviations; log beyond ±5]')
+    _explain_sides(axes)
     axes.legend(
         loc='lower center', bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False, markerscale=1.2
     )
+
+
+def _explain_sides(axes: Axes) -> None:
+    """Say at the right what it means to lie above 0 and below."""
+    share = axes.transAxes.inverted().transform(axes.transData.transform((0.0, 0.0)))[1]
+    for place, text in (
+        (0.5 * (1.0 + share), 'friction\ncannot hold'),
+        (0.5 * share, 'friction holds'),
+    ):
+        axes.text(
+            *(1.01, place, text),
+            transform=axes.transAxes,
+            rotation=90,
+            va='center',
+            color='#555555',
+        )
 
 
 def _draw_values(axes: Axes, calibration: Calibration) -> None:
@@ -134,6 +151,15 @@ def _draw_values(axes: Axes, calibration: Calibration) -> None:
         axes.plot([low, high], [row, row], color=BLUE, linewidth=3.0, solid_capstyle='butt')
         axes.plot(scale * parameter.value, row, 'o', color=BLUE, markersize=6.0)
     axes.axvline(100.0, color=GREY, linestyle='--', linewidth=1.2)
+    axes.annotate(
+        'start',
+        (100.0, 1.0),
+        xycoords=('data', 'axes fraction'),
+        xytext=(0, 2),
+        textcoords='offset points',
+        ha='center',
+        color='#555555',
+    )
     axes.set_yticks(range(len(names)), names)
     axes.set_ylim(len(names) - 0.5, -0.5)
     axes.set_xlabel('fitted value with 95 % interval [% of the start value]')

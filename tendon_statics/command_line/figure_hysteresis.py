@@ -53,6 +53,8 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
         ramp,
         [math.degrees(state.bend_angle or 0.0) for state in states],
         color=VERMILION,
+        # A slip takes no tension: it is drawn upright, at the tensions at which it is found.
+        drawstyle='steps-post',
         label='path of the unit: load, unload, load the other way',
     )
     axes.fill_between([], [], color='#cfe3f1', label='angles that friction can hold')
@@ -66,6 +68,7 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
         axes.annotate('', xy=tip, xytext=tail, arrowprops=style)
     axes.set_xlabel(f'tension difference T_s − T_l [N], at T_l + T_s = {total:g} N')
     axes.set_ylabel('bend angle θ [°]')
+    axes.set_xlim(-1.06 * reach, 1.06 * reach)
     axes.set_ylim(-1.15 * math.degrees(stop), 1.15 * math.degrees(stop))
     axes.legend(loc='upper center', bbox_to_anchor=(0.5, 1.2), ncols=1, frameon=False)
     drawing.suptitle('\n'.join(setting_title(design, load)), fontsize=10)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..physics import UPRIGHT, EquilibriumBatch, Load, Regime
+from ..physics import UPRIGHT, EquilibriumBatch, Load, Regime, paper
 from ..physics.batch import REGIME_CODES
 from ..recordings.recording import Floats
 from .options import add_design_option
@@ -35,6 +35,12 @@ QUANTITIES = {
     'pressure': _Quantity('joint pressure p [Pa]', 'cividis'),
     'sensitivity': _Quantity('bend angle per tension, |∂θ/∂T| [°/N]', 'cividis'),
 }
+
+AT_STOP = {
+    'bend_angle': 'driven to a stop: ±θ_max',
+    'sensitivity': 'driven to a stop: 0',
+}
+"""Quantity → what it is where a unit lies against a stop, which has a colour of its own"""
 
 WIDE = 20.0
 """Ratio of the largest to the smallest value above which the colours are logarithmic"""
@@ -73,9 +79,10 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
             '#7f7f7f',
         ),
     }
-    if options.quantity == 'sensitivity':
+    if options.quantity != 'pressure':
+        # So that they are not taken for the largest angles of an equilibrium.
         at_stop = answers.regime == REGIME_CODES[Regime.DRIVEN_TO_STOP]
-        has_no_number['at the stop: 0'] = (at_stop, '#cfe3f1')
+        has_no_number[AT_STOP[options.quantity]] = (at_stop, '#8cc6e8')
     patches = []
     for label, (where, colour) in has_no_number.items():
         if where.any():
@@ -86,7 +93,7 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
     shown = np.ma.masked_invalid(values)
     limits: dict[str, Any] = {}
     if options.quantity == 'bend_angle' and shown.count():
-        largest = float(abs(shown).max())
+        largest = math.degrees(answers.design.max_bend_angle)
         limits = {'vmin': -largest, 'vmax': largest}
     elif shown.count() and shown.max() > WIDE * shown.min():
         limits = {'norm': LogNorm()}
@@ -95,6 +102,7 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
         drawing.colorbar(mesh, label=quantity.label)
     for side, sign in (('s', 1.0), ('l', -1.0)):
         _name_stop(axes, answers, side, sign)
+    _mark_published(axes, across, up)
     load = answers.load if isinstance(answers.load, Load) else UPRIGHT  # one for all, from options
     drawing.suptitle('\n'.join(setting_title(answers.design, load)), fontsize=10)
     axes.set_xlabel('tension of cable l, T_l [N]')
@@ -109,9 +117,28 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
         )
 
 
+def _mark_published(axes: Axes, across: Floats, up: Floats) -> None:
+    """Mark the tensions of the paper's published case, where they are on the map."""
+    if across[0] <= paper.TENSION_L <= across[-1] and up[0] <= paper.TENSION_S <= up[-1]:
+        axes.plot(
+            *(paper.TENSION_L, paper.TENSION_S, 'o'),
+            markersize=7.0,
+            markerfacecolor='white',
+            markeredgecolor='black',
+        )
+        axes.annotate(
+            "the paper's\npublished case",
+            (paper.TENSION_L, paper.TENSION_S),
+            xytext=(14, -34),
+            textcoords='offset points',
+            arrowprops={'arrowstyle': '-', 'shrinkB': 4.0},
+        )
+
+
 def _values(answers: EquilibriumBatch, quantity: str) -> Floats:
     if quantity == 'bend_angle':
-        return np.degrees(answers.bend_angle)
+        at_stop = answers.regime == REGIME_CODES[Regime.DRIVEN_TO_STOP]
+        return np.where(at_stop, math.nan, np.degrees(answers.bend_angle))
     if quantity == 'pressure':
         return answers.pressure
     slope = np.hypot(*answers.bend_angle_gradient)

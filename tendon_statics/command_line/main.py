@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import re
+import shlex
 import signal
 import sys
 from collections.abc import Iterable, Sequence
@@ -100,6 +101,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         signal.signal(signal.SIGTERM, _interrupt)
     try:
         chosen = parser.parse_args(arguments)
+        chosen.command = shlex.join(['tendon-statics', *arguments])
         code: int | None = chosen.run(chosen)
         sys.stdout.flush()
     except BrokenPipeError:

@@ -35,6 +35,7 @@ from .figure_calibration import draw_calibration
 from .figure_recording import draw_replay
 from .figures import svg_of
 from .options import add_design_option, add_load_options, design_name, say_written
+from .origin import origin_facts
 from .page import fact_table, table, warning, write_page
 from .recorded_tip_force import recorded_tip_forces, tip_force_facts
 from .recording_options import add_recording_options, report_damage, unit_and_recording
@@ -96,6 +97,8 @@ def run(options: argparse.Namespace) -> int:
         *fitted,
         '<h2>Design</h2>',
         _design_table(start, design),
+        '<h2>How to make it again</h2>',
+        fact_table(origin_facts(options, recording)),
     ]
     write_page(path, f'Recorded session {recording.name}', parts)
     say_written(path, options)

@@ -1,7 +1,7 @@
 """The estimator's parameters: one table, from which all that is said and done of them comes.
 
-The node declares, reads and checks them by it, the files of a unit are checked by it, the README
-shows it, and what is not in it is named as unknown.
+The node declares, reads and checks them by it, the files of a unit are checked by it, the node's
+reference shows it, and what is not in it is named as unknown.
 """
 
 from __future__ import annotations

@@ -11,6 +11,7 @@ from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
 from .node_arguments import NODE_ARGUMENTS, given_parameters, respawn_options
+from .rviz import Shown, rviz_arguments
 
 
 def declared_node_arguments() -> list[DeclareLaunchArgument]:
@@ -88,6 +89,29 @@ def robot_state_publisher(
         remappings=[('joint_states', joint_states)],
         ros_arguments=['--log-level', arguments['log_level']],
         **respawn_options(arguments),
+        output='screen',
+    )
+
+
+def declared_rviz() -> DeclareLaunchArgument:
+    """The argument with which a launch file shows its joints in RViz."""
+    return DeclareLaunchArgument(
+        'rviz',
+        default_value='false',
+        choices=['true', 'false'],
+        description='whether RViz shows the units; includes robot_state_publisher and markers',
+    )
+
+
+def rviz(arguments: Mapping[str, str], joints: Sequence[Shown]) -> Node:
+    """The action that starts RViz for these joints."""
+    return Node(
+        package='rviz2',
+        executable='rviz2',
+        name='rviz',
+        arguments=rviz_arguments(joints),
+        parameters=[given_parameters(arguments, 'use_sim_time')],
+        ros_arguments=['--log-level', arguments['log_level']],
         output='screen',
     )
 

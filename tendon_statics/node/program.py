@@ -108,7 +108,11 @@ def _spin(node: Any) -> None:
     rclpy wakes the executor on a signal and shuts the context down beside that. An executor that
     looks at the context in between waits again; so the node has to have a timer that never stops.
     """
-    if getattr(node, 'executor_kind', 'single') == 'single':
+    kind = getattr(node, 'executor_kind', 'single')
+    if kind == 'own':  # It has a loop of its own, which ends with the context.
+        node.spin()
+        return
+    if kind == 'single':
         from rclpy.executors import SingleThreadedExecutor
 
         executor = SingleThreadedExecutor()

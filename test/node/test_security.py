@@ -17,9 +17,20 @@ from tendon_statics.driver.pulley_driver import PulleyDriver
 from tendon_statics.files.cable_parameters import TENSION_SOURCES
 from tendon_statics.files.installed_files import installed_config
 from tendon_statics.node.estimator import Estimator
+from tendon_statics.view.estimators_in_sight import Sighting
+from tendon_statics.view.view import View
 
 ROLES = {path.rpartition('/')[2]: rights for path, rights in permissions(POLICY).items()}
 OTHERS = sorted(set(ROLES) - {'estimator'})
+
+
+def watching_view():
+    """A view at whose page somebody looks; without anybody it hears nothing."""
+    view = View()
+    estimator = f'{view.get_namespace().rstrip("/")}/estimator'
+    view.watches.look(Sighting(estimator, f'{estimator}/estimate'))
+    return view
+
 
 TENSIONS = {'/tensions', '/tension_l', '/tension_s'}
 SOURCES = [f'tension_source:={source}' for source in TENSION_SOURCES]
@@ -35,10 +46,11 @@ CONFIGURATIONS = {
         TIMES,
     ],
     PulleyDriver: [SOURCES, TIMES],
+    watching_view: [TIMES],
 }
 
 
-NAMES = {Estimator: 'estimator', PulleyDriver: 'pulley_driver'}
+NAMES = {Estimator: 'estimator', PulleyDriver: 'pulley_driver', watching_view: 'view'}
 
 _numbers = itertools.count()
 
@@ -47,7 +59,8 @@ def rights_needed(name, make_node, *ros_arguments):
     """What the graph says that a node of that name does: right → full names."""
     # A name of its own, since one of the same name that has ended may still be in the graph.
     alias = f'{name}_{os.getpid()}_{next(_numbers)}'
-    with alone(make_node, '-r', f'__node:={alias}', *ros_arguments) as node:
+    any_port = ('-p', 'port:=0')  # of a view; others have none
+    with alone(make_node, '-r', f'__node:={alias}', *any_port, *ros_arguments) as node:
         namespace = node.get_namespace()
         found = entities(node)
         clients = node.get_client_names_and_types_by_node(alias, namespace)
@@ -78,7 +91,7 @@ def rights_needed_in_every_configuration(node_class, *ros_arguments):
 
 
 @pytest.mark.parametrize(
-    ('role', 'node_class'), [('estimator', Estimator), ('pulley_driver', PulleyDriver)]
+    ('role', 'node_class'), [(role, node_class) for node_class, role in NAMES.items()]
 )
 def test_a_node_of_the_package_may_do_all_that_it_does_and_nothing_more(role, node_class):
     assert ROLES[role] == rights_needed_in_every_configuration(node_class)
@@ -122,6 +135,10 @@ OF_THE_COMMAND_LINE = {
 
 EXTRA = {
     'pulley_driver': {'publish': TENSIONS},
+    'view': {
+        'subscribe': {'/diagnostics', '/estimator/estimate', '/estimator/regime'},
+        'request': {'/estimator/get_parameters'},
+    },
     # Every C++ node subscribes to /parameter_events, and these may be in C++.
     'load_sensor': {
         'publish': {'/imu', '/base_pose', '/tip_wrench'},
@@ -236,6 +253,6 @@ def test_the_commands_of_the_page_follow_a_namespace_and_a_remapping(tmp_path):
         arguments += more
         of_joint = permissions(tmp_path / 'distal.xml')
         assert set(of_joint) == {f'/tendon_statics/distal/{role}' for role in ROLES}
-        for role, node_class in (('estimator', Estimator), ('pulley_driver', PulleyDriver)):
+        for node_class, role in NAMES.items():
             needed = rights_needed_in_every_configuration(node_class, *arguments)
             assert of_joint[f'/tendon_statics/distal/{role}'] == needed

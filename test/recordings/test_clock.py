@@ -166,7 +166,7 @@ def test_stamps_that_are_asked_for_stay_in_the_order_of_recording_and_are_named(
 
 def test_topics_of_which_none_has_a_message_have_no_clock():
     empty = Stamped.of([])
-    times, late, notes = common_clock({'/a': empty}, 'auto', 0)
-    assert times['/a'].shape == (0,)
-    assert not late
-    assert notes == []
+    clocked = common_clock({'/a': empty}, 'auto', 0)
+    assert clocked.times['/a'].shape == (0,)
+    assert not clocked.late
+    assert clocked.notes == []

@@ -55,6 +55,9 @@ def test_units_in_brackets_are_turned_into_si(file):
     [
         ('', 'no column tension_l'),
         ('tension_l,t\n1,2\n', 'no column tension_s.*there are: tension_l, t'),
+        ('T_l,T_s\n1,2\n', 'T_l, T_s .--columns tension_l=TITLE,tension_s=TITLE names them'),
+        ('1.0,2.0\n1.0,1.5\n', 'numbers in place of titles; put titles above it'),
+        ('1,0;2,0\n1,0;1,5\n', 'numbers in place of titles; put titles above it'),
         ('tension_l,tension_s\n', 'no row'),
         ('tension_l,tension_s\n1,x\n', "no row.*line 2, '1,x'"),
         ('tension_l [lbf],tension_s\n1,2\n', "tension_l is 'lbf'.* N, mN"),
@@ -125,8 +128,10 @@ def test_a_file_that_cannot_be_read_is_named(tmp_path):
     binary.write_bytes(b'\xff\xfe')
     with pytest.raises(RecordingError, match='not a text file'):
         load_recording(binary)
-    with pytest.raises(RecordingError, match=r'run\.txt: .*\.parquet'):
+    with pytest.raises(RecordingError, match=r'run\.txt: .*\.parquet.*renamed to \.csv'):
         load_recording(tmp_path / 'run.txt')
+    with pytest.raises(RecordingError, match=r'run\.xlsx: .*save a spreadsheet as CSV'):
+        load_recording(tmp_path / 'run.xlsx')
 
 
 def test_the_demo_holds_the_published_case():

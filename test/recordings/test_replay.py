@@ -27,7 +27,7 @@ WRITERS = {
     'parquet': lambda path, replayed: write_table(path, replayed.columns()),
     'mcap': bag_output.write_bag,
 }
-DEMO = installed_config('demo_tensions.csv')
+DEMO = installed_config('every_regime.csv')
 
 
 def _estimated(output):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -10,6 +11,9 @@ from ..recording import QUANTITIES
 from .table_options import TableOptions, unit_factor
 from .time_column import TimeColumn, find_time
 from .units import parse_column, split_title
+
+_ONLY_NUMBERS = re.compile(r'[-+.,;|\s\deE]*\d[-+.,;|\s\deE]*')
+"""One, or several in a line whose separator the titles do not tell"""
 
 REQUIRED = ('tension_l', 'tension_s')
 
@@ -64,10 +68,8 @@ def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> 
         found[name] = Column(place, factor, split_title(title)[1] is not None)
     for name in REQUIRED:
         if name not in found:
-            there = ', '.join(filter(None, titles)) or 'none'
             raise RecordingError(
-                f'there is no column {name}; {", ".join(REQUIRED)} are needed, there are: {there}'
-                f' (--columns {name}=TITLE names one of them)'
+                f'there is no column {name}; {", ".join(REQUIRED)} are needed, ' + _there(titles)
             )
     for quantity, unit in options.units.items():
         if quantity in found:
@@ -76,6 +78,18 @@ def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> 
     state = found.pop('state', None)
     in_newtons = all(found[name].has_unit for name in REQUIRED) or set(READINGS) <= set(titles)
     return Columns(found, time, None if state is None else state.place, in_newtons)
+
+
+def _there(titles: Sequence[str]) -> str:
+    """Say which columns there are instead, and what to do."""
+    there = [title for title in titles if title]
+    if there and all(_ONLY_NUMBERS.fullmatch(title) for title in there):
+        return (
+            'but the first line has numbers in place of titles; put titles above it, such as '
+            'tension_l,tension_s'
+        )
+    missing = ','.join(f'{name}=TITLE' for name in REQUIRED if name not in there)
+    return f'there are: {", ".join(there) or "none"} (--columns {missing} names them)'
 
 
 def _named(quantity: str, title: str, titles: Sequence[str]) -> Column:

@@ -17,6 +17,13 @@ from .topics import BagTopics
 TEXT_ENDINGS = ('.csv', '.tsv', '.lvm')
 ENDINGS = (*TEXT_ENDINGS, '.parquet', '.mat', *BAG_ENDINGS)
 
+_REMEDIES = {
+    '.txt': '; a table of text can be read when it is renamed to .csv',
+    '.dat': '; a table of text can be read when it is renamed to .csv',
+    **dict.fromkeys(('.xlsx', '.xls', '.ods'), '; save a spreadsheet as CSV'),
+}
+"""Endings that people try → what to do"""
+
 
 def load_recording(
     path: str | Path,
@@ -106,4 +113,7 @@ def _table(path: Path, options: TableOptions | None, progress: Progress) -> Reco
         from .csv_file import load_csv
 
         return load_csv(path, options, progress)
-    raise RecordingError(f'a recording ends in {", ".join(ENDINGS)}, or is the folder of a bag')
+    raise RecordingError(
+        f'a recording ends in {", ".join(ENDINGS)}, or is the folder of a bag'
+        + _REMEDIES.get(path.suffix.lower(), '')
+    )

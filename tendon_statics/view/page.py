@@ -1,0 +1,187 @@
+"""One page in a browser: what it shows, of which estimator, and whether it is paused."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from bokeh.document import Document
+from bokeh.events import ConnectionLost
+from bokeh.models import ColumnDataSource, CustomJS, Div, Select, Toggle
+
+from ..estimation.regimes import REGIME_COLOURS
+from ..physics import JointDesign
+from .estimate_values import regime_probabilities
+from .estimators_in_sight import Sighting, estimators_in_sight
+from .history import COLUMNS
+from .map_figure import NOT_SEATED, ON_MAP, MapFigure
+from .probability_figure import ProbabilityFigure
+from .time_figures import TimeFigures, local_clock
+from .unit_figure import UnitFigure
+from .unit_watch import UnitWatch, Watches
+from .words import REGIMES, STYLE, diagnostics_words, nobody, state_words, waiting
+
+TEMPLATE = Path(__file__).with_name('page.html')
+
+WORDS_PERIOD = 0.2
+"""Seconds between two readings in words; quicker ones cannot be read"""
+
+SIGHT_PERIOD = 1.0
+"""Seconds between two looks for estimators"""
+
+
+class Page:
+    """One page of one browser.
+
+    Parameters
+    ----------
+    node : View
+        The node, for what is in sight.
+    rate : float
+        Drawings per second, at the most.
+    first : str
+        Full name of the estimator that it begins with; empty for the first in sight.
+    """
+
+    def __init__(
+        self, document: Document, node: Any, watches: Watches, rate: float, first: str
+    ) -> None:
+        self._session = document.session_context
+        self._node = node
+        self._watches = watches
+        self._chosen = first
+        self._sightings: Sequence[Sighting] = ()
+        self._watch: UnitWatch | None = None
+        self._design: JointDesign | None = None
+        self._drawn = 0  # samples of the history
+        self._words_due = self._sight_due = 0.0
+
+        self._history = ColumnDataSource({name: [] for name in COLUMNS}, name='history')
+        self._unit = UnitFigure()
+        self._map = MapFigure(self._history)
+        self._times = TimeFigures(self._history)
+        self._probabilities = ProbabilityFigure()
+        style = {'sizing_mode': 'stretch_width', 'stylesheets': [STYLE]}
+        self._state = Div(name='state', **style)
+        self._diagnostics = Div(name='diagnostics', **style)
+        self._choice = Select(name='estimator', options=[], width=260)
+        self._choice.on_change('value', self._on_choice)
+        self._pause = Toggle(name='pause', label='Pause', width=110)
+        self._pause.on_change('active', self._on_pause)
+
+        for root in (
+            *(self._choice, self._pause, self._state, self._diagnostics),
+            *(self._unit.root, self._map.root, self._probabilities.root),
+            *(self._times.angle, self._times.pressure, self._times.margin),
+        ):
+            document.add_root(root)
+        document.title = 'tendon_statics'
+        document.template = TEMPLATE.read_text(encoding='utf-8')
+        document.template_variables['regimes'] = [
+            *((REGIMES[regime][0], REGIME_COLOURS[regime]) for regime in ON_MAP),
+            ('not on its seat', NOT_SEATED),
+        ]
+        document.js_on_event(ConnectionLost, CustomJS(code="document.body.classList.add('lost')"))
+        document.add_periodic_callback(self.update, round(1e3 / rate))
+        document.on_session_destroyed(lambda _context: self._leave())
+
+    # What the person at the page does
+
+    def _on_choice(self, _name: str, _old: str, new: str) -> None:
+        if self._watch is None or new != self._watch.sighting.name:
+            self._chosen = new
+            self._leave()
+            self._sight_due = 0.0
+
+    def _on_pause(self, _name: str, _old: bool, new: bool) -> None:
+        self._pause.label = 'Resume' if new else 'Pause'
+        self._pause.button_type = 'warning' if new else 'default'
+
+    # Drawing
+
+    def update(self) -> None:
+        """Draw what is new. Without a browser, hear nothing: it is closed, or still loading."""
+        if self._session is None or self._session.session.connection_count == 0:
+            self._leave()
+            return
+        now = time.monotonic()
+        if now >= self._sight_due:
+            self._sight_due = now + SIGHT_PERIOD
+            self._look_around()
+        if self._pause.active:
+            return
+        self._draw(now)
+
+    def _look_around(self) -> None:
+        self._sightings = estimators_in_sight(self._node)
+        names = [sighting.name for sighting in self._sightings]
+        if self._chosen and self._chosen not in names:
+            names.append(self._chosen)  # It may have ended, and may come back.
+        if names != self._choice.options:
+            self._choice.options = names
+        if self._watch is None and self._sightings:
+            wanted = self._chosen or self._sightings[0].name
+            for sighting in self._sightings:
+                if sighting.name == wanted:
+                    self._chosen = wanted
+                    self._watch = self._watches.look(sighting)
+                    self._choice.value = wanted
+
+    def _draw(self, now: float) -> None:
+        watch = self._watch
+        are_words_due = now >= self._words_due
+        if are_words_due:
+            self._words_due = now + WORDS_PERIOD
+        if watch is None:
+            if are_words_due:
+                self._say(nobody(self._node.domain, self._chosen), '')
+            return
+        if watch.history.count > self._drawn:
+            new = watch.history.since(self._drawn)
+            for name in ('before', 'time'):
+                new[name] = local_clock(new[name])
+            # Lists, since each array of its own would be two messages more.
+            lists = {name: column.tolist() for name, column in new.items()}
+            self._history.stream(lists, rollover=watch.history.length)
+            self._drawn = watch.history.count
+        self._times.move_on(local_clock(1e3 * time.time()))
+        estimate = watch.estimate
+        if estimate is not None:
+            self._draw_estimate(watch, estimate)
+        if are_words_due:
+            state = (
+                waiting(watch.sighting.name)
+                if estimate is None
+                else state_words(estimate, watch.said, now - watch.estimated_at)
+            )
+            self._say(state, diagnostics_words(watch.diagnostics, now - watch.diagnosed_at))
+
+    def _draw_estimate(self, watch: UnitWatch, estimate: Any) -> None:
+        design = watch.design
+        if design is not None and design != self._design:
+            self._design = design
+            self._unit.draw_design(design)
+            self._times.draw_design(design)
+        if design is not None:
+            self._unit.draw(design, estimate)
+        self._map.draw(design, estimate)
+        self._probabilities.draw(regime_probabilities(estimate))
+
+    def _say(self, state: str, diagnostics: str) -> None:
+        for place, text in ((self._state, state), (self._diagnostics, diagnostics)):
+            if place.text != text:
+                place.text = text
+
+    def _leave(self) -> None:
+        """Look no more, and draw nothing of what was seen."""
+        if self._watch is None:
+            return
+        self._watches.leave(self._watch)
+        self._watch = self._design = None
+        self._drawn = 0
+        self._history.data = {name: [] for name in COLUMNS}
+        self._unit.clear()
+        self._map.clear()
+        self._probabilities.draw(None)

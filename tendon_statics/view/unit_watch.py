@@ -1,0 +1,122 @@
+"""What is heard of one estimator."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from rclpy.node import Node
+from std_msgs.msg import String
+from tendon_statics_interfaces.msg import Estimate
+
+from ..estimation.regimes import INVALID, STALE
+from ..physics import JointDesign
+from .design_question import DesignQuestion
+from .estimate_values import sample_of
+from .estimators_in_sight import Sighting
+from .history import History, Sample
+from .newest_messages import NewestMessages
+
+SILENCE = 0.5
+"""Seconds without an estimate after which the lines of a page end"""
+
+
+class UnitWatch:
+    """What one estimator says, from when somebody looks at it until nobody does.
+
+    Parameters
+    ----------
+    rate : float
+        How often per second `poll` is called, at the most.
+    """
+
+    def __init__(self, node: Node, sighting: Sighting, rate: float) -> None:
+        self.sighting = sighting
+        self.history = History(rate)
+        self.estimate: Any = None
+        """The newest that came, None before the first"""
+        self.estimated_at = -math.inf
+        """When it came, on the clock of `time.monotonic`"""
+        self.said = ''
+        """``invalid`` or ``stale`` where the estimator says that in place of an estimate"""
+        self.diagnostics: DiagnosticStatus | None = None
+        self.diagnosed_at = -math.inf
+        self._estimates = NewestMessages(node, Estimate, sighting.topic)
+        self._regimes = NewestMessages(node, String, f'{sighting.name}/regime')
+        # Room for the estimators of a rig, which share the topic.
+        self._diagnostics = NewestMessages(node, DiagnosticArray, '/diagnostics', depth=50)
+        self._design = DesignQuestion(node, sighting.name)
+        self._ended = False
+
+    @property
+    def design(self) -> JointDesign | None:
+        """The unit's design, as far as the estimator has told it."""
+        return self._design.design
+
+    def poll(self) -> None:
+        """Take what has come."""
+        now = time.monotonic()
+        self._design.ask_when_due(now)
+        for message in self._regimes.take():
+            self.said = message.data if message.data in (INVALID, STALE) else ''
+        for message in self._estimates.take():
+            self.estimate = message
+            self.estimated_at = now
+            self._ended = False
+            self.history.add(time.time(), sample_of(message))
+        if now - self.estimated_at > SILENCE and not self._ended:
+            self._ended = True
+            self.history.add(time.time(), Sample())
+        name = f'{self.sighting.name.lstrip("/")}: estimation'
+        for message in self._diagnostics.take():
+            for status in message.status:
+                if status.name == name:
+                    self.diagnostics = status
+                    self.diagnosed_at = now
+
+    def close(self) -> None:
+        """Hear no more."""
+        for topic in (self._estimates, self._regimes, self._diagnostics):
+            topic.close()
+        self._design.close()
+
+
+class Watches:
+    """The estimators that pages look at: each is heard once, however many pages there are."""
+
+    def __init__(self, node: Node, rate: float) -> None:
+        self._node = node
+        self._rate = rate
+        self._watched: dict[Sighting, tuple[UnitWatch, int]] = {}
+
+    def __bool__(self) -> bool:
+        return bool(self._watched)
+
+    def look(self, sighting: Sighting) -> UnitWatch:
+        """Begin to look at an estimator; `leave` ends it."""
+        watch, lookers = self._watched.get(sighting, (None, 0))
+        watch = watch or UnitWatch(self._node, sighting, self._rate)
+        self._watched[sighting] = watch, lookers + 1
+        return watch
+
+    def leave(self, watch: UnitWatch) -> None:
+        """Look no more; who leaves last ends the subscriptions."""
+        _, lookers = self._watched[watch.sighting]
+        if lookers > 1:
+            self._watched[watch.sighting] = watch, lookers - 1
+        else:
+            del self._watched[watch.sighting]
+            watch.close()
+
+    def poll(self) -> None:
+        """Take what has come, of each."""
+        for watch, _ in self._watched.values():
+            watch.poll()
+
+    def close(self) -> None:
+        """End all."""
+        while self._watched:
+            _, (watch, _) = self._watched.popitem()
+            watch.close()

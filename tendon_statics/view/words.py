@@ -1,0 +1,159 @@
+"""What a page says in words: HTML, from plain texts that are escaped here."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from html import escape
+from typing import Any
+
+from ..estimation.regimes import INVALID, REGIME_COLOURS, STALE
+from ..physics import Regime
+from .estimate_values import COVERAGE, angle_interval, regime_of
+
+REGIMES = {
+    Regime.EQUILIBRIUM: (
+        'equilibrium',
+        'On the verge of slipping, at the angle that is given.',
+    ),
+    Regime.HELD: ('held', 'Friction holds the unit where it is.'),
+    Regime.SLIPPING: ('slipping', 'The unit has slipped to where friction holds it again.'),
+    Regime.DRIVEN_TO_STOP: (
+        'driven to the stop',
+        'Friction holds the unit nowhere on its way to the stop.',
+    ),
+    Regime.SLACK: ('slack', 'A cable carries no tension: outside the model.'),
+}
+"""Regime → its name and what it means"""
+
+STYLE = """
+  h2 { margin: 0 0 0.2rem; font-size: 1.7rem; }
+  h2 small { font-size: 0.9rem; font-weight: normal; }
+  p { margin: 0 0 0.5rem; font-size: 0.95rem; }
+  table { border-collapse: collapse; font-size: 1rem; font-variant-numeric: tabular-nums; }
+  th { text-align: left; font-weight: normal; color: #666; padding: 0.1rem 1rem 0.1rem 0; }
+  td small { color: #666; padding-left: 0.5rem; }
+  ul { margin: 0.5rem 0 0; padding-left: 1.2rem; font-size: 0.9rem; }
+  b { padding: 0.1rem 0.5rem; border-radius: 4px; color: #fff; background: #777777; }
+  .level-ok { background: #00734f; } .level-warn { background: #9a6a00; }
+  .level-error { background: #b34700; }
+"""
+"""How the words look"""
+
+NOT_DETERMINED = 'Where in the band it is, the tensions alone do not tell.'
+
+WITHOUT_ESTIMATE = {
+    INVALID: (INVALID, 'The newest reading is no pair of tensions that the model takes.'),
+    STALE: (STALE, 'No valid tensions come any more; what is drawn is the last that was known.'),
+}
+
+GREY = '#777777'
+
+LEVELS = ('OK', 'WARN', 'ERROR', 'STALE')
+"""Words for the levels of ``/diagnostics``, by their numbers"""
+
+NOTEWORTHY = ('rate [Hz]', 'mean solve time [ms]', 'messages lost on the way', 'dropped: ')
+"""Beginnings of the values of ``/diagnostics`` that a page shows, but for those that are 0"""
+
+
+def nobody(domain: str, asked: str) -> str:
+    """Say that there is no estimator, or not the one that was asked for."""
+    what = f'The estimator {asked} is not in sight.' if asked else 'No estimator is in sight.'
+    return (
+        f'<h2 style="color:{GREY}">waiting</h2><p>{escape(what)} It has to run in the same '
+        f'ROS domain, here {escape(domain)}: <code>ros2 run tendon_statics estimator</code></p>'
+    )
+
+
+def waiting(name: str) -> str:
+    """Say that an estimator is there, and said nothing yet."""
+    return (
+        f'<h2 style="color:{GREY}">waiting</h2><p>{escape(name)} is there, and no estimate of '
+        'it came yet: do tensions come, and is the node active?</p>'
+    )
+
+
+def state_words(estimate: Any, said: str, age: float) -> str:
+    """Say what an estimate is, and what casts doubt on it.
+
+    Parameters
+    ----------
+    said
+        ``invalid`` or ``stale``, if the estimator said so after it.
+    age
+        Seconds since it came.
+    """
+    regime = regime_of(estimate)
+    name, meaning = REGIMES[regime] if regime else (estimate.regime, '')
+    colour = REGIME_COLOURS[regime] if regime else GREY
+    if said:
+        name, meaning = WITHOUT_ESTIMATE[said]
+        colour = GREY
+    elif regime is Regime.HELD and math.isnan(estimate.bend_angle):
+        meaning += f' {NOT_DETERMINED}'
+    numbers = ''.join(
+        f'<tr><th>{label}</th><td>{value}</td></tr>' for label, value in _numbers(estimate)
+    )
+    old = f' <small>{age:.0f} s ago</small>' if age > 2.0 else ''
+    return (
+        f'<h2 style="color:{colour}">{escape(name)}{old}</h2><p>{escape(meaning)}</p>'
+        f'<table>{numbers}</table>{_list(_doubts(estimate))}'
+    )
+
+
+def _numbers(estimate: Any) -> Iterator[tuple[str, str]]:
+    low, high = map(math.degrees, angle_interval(estimate))
+    angle = _number(math.degrees(estimate.bend_angle), '.2f', '°')
+    if math.isfinite(low) and math.isfinite(high):
+        angle += f' <small>{low:.1f} to {high:.1f}°</small>'
+    pressure = _number(estimate.pressure, '.1f', ' Pa')
+    if math.isfinite(estimate.pressure_stddev):
+        pressure += f' <small>± {COVERAGE * estimate.pressure_stddev:.1f}</small>'
+    yield 'bend angle', angle
+    yield 'pressure', pressure
+    yield 'slip margin', _number(estimate.slip_margin, '+.3f', '')
+    if math.isfinite(estimate.consistency):
+        yield 'consistency', f'{estimate.consistency:.3f}'
+    yield 'tensions l, s', f'{estimate.tension_l:.3f} N, {estimate.tension_s:.3f} N'
+
+
+def _number(value: float, form: str, unit: str) -> str:
+    return f'{value:{form}}{unit}' if math.isfinite(value) else 'not determined'
+
+
+def _doubts(estimate: Any) -> Iterator[str]:
+    if not estimate.load_assured:
+        yield 'What tells the load does not come; the last that was known is taken.'
+    if math.isnan(estimate.bend_angle):
+        return
+    if estimate.provisional:
+        yield 'Provisional: readings to come may take it back.'
+    if not estimate.angle_assured:
+        yield 'The unit may have moved unseen: its angle is not assured.'
+    if not estimate.branch_consistent:
+        yield 'The forces ask for the other root of the model.'
+    if estimate.root_count and not estimate.stable:
+        yield 'Pushed past this angle, the unit slides on to the stop.'
+
+
+def diagnostics_words(status: Any, age: float) -> str:
+    """Say what an estimator says of itself on ``/diagnostics``."""
+    if status is None:
+        return '<p>Nothing came on <code>/diagnostics</code> yet.</p>'
+    level = status.level[0] if isinstance(status.level, bytes) else status.level
+    word = LEVELS[level] if level < len(LEVELS) else str(level)
+    old = f' <small>{age:.0f} s ago</small>' if age > 3.0 else ''
+    values = (
+        f'{value.key}: {value.value}'
+        for value in status.values
+        if value.key.startswith(NOTEWORTHY) and value.value not in ('', '0')
+    )
+    return (
+        f'<p><b class="level-{word.lower()}">{word}</b>{old} {escape(status.message)}</p>'
+        f'{_list(values)}'
+    )
+
+
+def _list(texts: Iterable[str]) -> str:
+    items = ''.join(f'<li>{escape(text)}</li>' for text in texts)
+    return f'<ul>{items}</ul>' if items else ''

@@ -1,0 +1,142 @@
+"""RViz, PlotJuggler and Foxglove are told of topics and fields that the node publishes."""
+
+import json
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from ament_index_python.packages import PackageNotFoundError, get_package_prefix
+from list_entities import entities, estimator
+from tendon_statics_interfaces.msg import Estimate
+
+from tendon_statics.files.installed_files import installed_config
+from tendon_statics.launching.rig_file import load_rig
+from tendon_statics.launching.rviz import RvizError, Shown, rviz_arguments, rviz_config
+
+SHARE = installed_config('rig.yaml').parents[1]
+ALONE = Shown('', 'joint')
+
+
+@pytest.fixture(scope='module')
+def topics():
+    """Topic of an estimator without a namespace → type."""
+    with estimator('markers:=true') as node:
+        found = entities(node)['publisher']
+        return {
+            name.replace('~', node.get_fully_qualified_name()): kind.replace('/msg/', '/')
+            for name, kind in found.items()
+        }
+
+
+def displays(config, kind):
+    return [
+        display
+        for display in config['Visualization Manager']['Displays']
+        if display['Class'] == f'rviz_default_plugins/{kind}'
+    ]
+
+
+def test_rviz_shows_the_markers_and_the_description_of_the_unit(topics):
+    config = rviz_config([ALONE])
+    (markers,), (model,) = displays(config, 'MarkerArray'), displays(config, 'RobotModel')
+    assert topics[markers['Topic']['Value']] == 'visualization_msgs/MarkerArray'
+    assert model['Description Topic']['Value'] == '/robot_description'
+    # What is said once has to be kept for who comes later.
+    assert model['Description Topic']['Durability Policy'] == 'Transient Local'
+    with estimator() as node:
+        frame = node.get_parameter('frame_id').value
+    assert config['Visualization Manager']['Global Options']['Fixed Frame'] == frame
+
+
+def test_rviz_shows_every_joint_of_a_rig_in_the_frame_of_the_first():
+    joints = load_rig(installed_config('rig.yaml'))
+    config = rviz_config([Shown(joint.namespace, joint.names.frame_id) for joint in joints])
+    for kind, key, topic in (
+        ('MarkerArray', 'Topic', 'estimator/markers'),
+        ('RobotModel', 'Description Topic', 'robot_description'),
+    ):
+        shown = displays(config, kind)
+        values = [display[key]['Value'] for display in shown]
+        assert values == [f'/{joint.namespace}/{topic}' for joint in joints]
+        assert len({display['Name'] for display in shown}) == len(joints)
+    options = config['Visualization Manager']['Global Options']
+    assert options['Fixed Frame'] == joints[0].names.frame_id
+
+
+def test_a_tilted_base_is_shown_tilted():
+    config = rviz_config([Shown('', 'ball', has_base=True)])
+    assert config['Visualization Manager']['Global Options']['Fixed Frame'] == 'ball_base'
+
+
+def test_missing_rviz_is_said_in_a_line_with_the_remedy(monkeypatch):
+    def missing(name):
+        raise PackageNotFoundError(name)
+
+    monkeypatch.setattr('tendon_statics.launching.rviz.get_package_prefix', missing)
+    with pytest.raises(RvizError, match=r'apt install ros-jazzy-rviz2'):
+        rviz_arguments([ALONE])
+
+
+def test_rviz_is_given_a_file_of_its_own(monkeypatch, tmp_path):
+    monkeypatch.setattr('tendon_statics.launching.rviz.get_package_prefix', get_own_prefix)
+    monkeypatch.setattr('tempfile.tempdir', str(tmp_path))
+    option, path = rviz_arguments([Shown('left', 'left/joint')])
+    assert option == '-d'
+    assert '/left/estimator/markers' in Path(path).read_text(encoding='utf-8')
+
+
+def get_own_prefix(_name):
+    return get_package_prefix('tendon_statics')
+
+
+FIELDS = Estimate.get_fields_and_field_types()
+
+
+def assert_is_published(path, topics):
+    """Assert that a topic of the estimator has the field at the end of a path, if it has one."""
+    match = re.fullmatch(r'(/[\w/]+?)(?:[/.](\w+)(?:\[\d+\])?)?', path)
+    topic, field = match.groups()
+    if path in topics:
+        return
+    assert topic in topics, path
+    if topics[topic].endswith('/Estimate'):
+        assert field in FIELDS, path
+    else:
+        assert (topics[topic], field) == ('std_msgs/String', 'data'), path
+
+
+def test_plotjuggler_plots_fields_that_are_published(topics):
+    root = ElementTree.parse(SHARE / 'layouts' / 'plotjuggler.xml').getroot()
+    curves = [curve.attrib['name'] for curve in root.iter('curve')]
+    assert len(curves) > 5
+    for curve in curves:
+        topic, _, field = curve.rpartition('/')
+        assert_is_published(f'{topic}.{field}', topics)
+    for topic in root.iter('topic'):
+        assert topic.attrib['name'] in topics
+    for splitter in root.iter('DockSplitter'):
+        shares = [float(share) for share in splitter.attrib['sizes'].split(';')]
+        assert len(shares) == len(splitter) == int(splitter.attrib['count'])
+        assert sum(shares) == pytest.approx(1.0)
+
+
+def test_foxglove_plots_fields_that_are_published(topics):
+    layout = json.loads((SHARE / 'layouts' / 'foxglove.json').read_text(encoding='utf-8'))
+    panels = layout['configById']
+    paths = [path['value'] for panel in panels.values() for path in panel.get('paths', ())]
+    paths += [
+        panel[key]
+        for panel in panels.values()
+        for key in ('topicPath', 'topicToRender')
+        if key in panel
+    ]
+    assert len(paths) > 8
+    for path in paths:
+        assert_is_published(path, topics)
+    assert '/estimator/markers' in panels['3D!unit']['topics']
+
+    def shown(part):
+        return [part] if isinstance(part, str) else shown(part['first']) + shown(part['second'])
+
+    assert sorted(shown(layout['layout'])) == sorted(panels)

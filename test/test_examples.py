@@ -1,0 +1,87 @@
+"""The examples run as they stand, and say what they are to say."""
+
+import itertools
+import os
+import subprocess
+import sys
+import time
+from contextlib import suppress
+
+import pytest
+from make_docs import ROOT
+from ros_programs import Program, wait_for
+
+from tendon_statics import load_design
+
+EXAMPLES = ROOT / 'examples'
+
+TIME_LIMIT = 300.0
+"""s; more than ten times what one takes"""
+
+
+def run_script(name, *arguments, folder):
+    """Run a script to its end and return what it printed."""
+    done = subprocess.run(
+        [sys.executable, EXAMPLES / name, *map(str, arguments)],
+        cwd=folder,
+        env={**os.environ, 'MPLBACKEND': 'agg'},
+        capture_output=True,
+        text=True,
+        timeout=TIME_LIMIT,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def example(name):
+    """Run a script that ends by a signal only."""
+    return Program.running_command([sys.executable, '-u', EXAMPLES / name])
+
+
+def test_the_notebook_finds_the_stand_in_unit(tmp_path):
+    printed = run_script('calibration.py', tmp_path / 'fitted.yaml', folder=tmp_path)
+    assert 'no warnings' in printed
+    fitted = load_design(tmp_path / 'fitted.yaml')
+    assert fitted.mass == pytest.approx(0.024, abs=0.005)
+    assert fitted.cable_offset == pytest.approx(0.0041, abs=0.0004)
+    assert fitted.friction_coefficient == pytest.approx(0.92, abs=0.04)
+
+
+def test_comparing_laws_says_what_the_recording_tells(tmp_path):
+    printed = run_script('compare_laws.py', folder=tmp_path)
+    assert 'merged           at 1 N and 2 N: equilibrium at 17.14°' in printed
+    assert 'friction_circle  at 1 N and 2 N: held' in printed
+    assert 'elastic_seat     ruled out' in printed
+    assert 'the data cannot tell merged and friction_circle apart' in printed
+
+
+def test_the_subscriber_prints_changes_of_regime_and_says_when_nothing_comes(listener):
+    with listener.estimator(), example('subscriber.py') as subscriber:
+        wait_for('that', lambda: 'no estimate for 2 s' in subscriber.output())
+        for pair, text in (
+            ((1.0, 2.0), 'equilibrium: 17.14° ± 7.04°, 405.6 Pa\n'),
+            ((1.0, 1.5), 'held: the tensions do not tell the angle\n'),
+            ((1.0, 3.0), 'driven_to_stop: 30.00° ± 0.00°'),
+        ):
+            # Again and again, since the first may come before the two have found each other.
+            deadline = time.monotonic() + TIME_LIMIT
+            while text not in subscriber.output():
+                assert time.monotonic() < deadline, subscriber.output()
+                listener.publish(*pair)
+                with suppress(TimeoutError):
+                    wait_for(text, lambda t=text: t in subscriber.output(), time_limit=0.2)
+        assert subscriber.end() == 0
+        lines = subscriber.output().splitlines()
+        assert all(line != after for line, after in itertools.pairwise(lines))
+
+
+def test_the_client_waits_for_its_answer_within_a_callback(listener):
+    with listener.estimator(), example('service_client.py') as client:
+        wait_for('tensions for an angle', lambda: '11°: cable l' in client.output())
+        assert client.end() == 0
+
+
+def test_the_client_says_that_no_estimator_is_running():
+    with example('service_client.py') as client:
+        wait_for('that', lambda: 'no estimator is running' in client.output())
+        assert client.end() == 0

@@ -1,0 +1,30 @@
+"""What a newcomer sees of `make demo`."""
+
+import re
+import subprocess
+import sys
+
+from make_docs import ROOT
+from ros_programs import TIME_LIMIT, Program  # noqa: F401  which marks it as one of the node
+
+
+def test_the_demo_shows_a_sound_session_every_regime_and_what_to_do_next():
+    done = subprocess.run(
+        [sys.executable, ROOT / 'tools' / 'demo.py'],
+        capture_output=True,
+        text=True,
+        timeout=5.0 * TIME_LIMIT,
+    )
+    assert done.returncode == 0, done.stderr
+    printed = done.stdout
+    assert printed.startswith('\n== starting the estimator')
+    sound, rest = printed.split('/diagnostics: ')
+    for regime in ('held', 'slack', 'invalid'):
+        assert regime not in sound
+        assert regime in rest
+    assert rest.startswith('OK, ')
+    assert 'equilibrium, 17.14 deg ± 7.04, 405.6 Pa' in rest
+    assert 'SIGINT' not in printed
+    named = re.findall(r'(?:tools|docs)/\S+', printed[printed.index('What next') :])
+    assert named
+    assert all((ROOT / name).is_file() for name in named)

@@ -1,0 +1,276 @@
+"""The live page in a real browser, fed by real nodes."""
+
+import math
+import os
+import signal
+from contextlib import ExitStack
+
+import numpy as np
+import pytest
+from browser import BrowserMissingError, chromium
+from live_page import LivePage, forwarded, view_url
+from rclpy.node import Node
+from ros_domain import free_domain, in_domain
+from ros_programs import Program, spinning, wait_for
+
+from tendon_statics import default_design_path, load_design, solve
+from tendon_statics.files.installed_files import installed_config
+from tendon_statics.physics import paper
+from tendon_statics.physics.batch import REGIME_CODES
+
+DESIGN = load_design(default_design_path())
+PUBLISHED = (paper.TENSION_L, paper.TENSION_S)
+HELD = (1.0, 1.5)
+FILES = {'left': PUBLISHED, 'right': HELD}
+
+
+@pytest.fixture(scope='module')
+def browser():
+    try:
+        with chromium() as browser:
+            yield browser
+    except BrowserMissingError as error:
+        if os.environ.get('CI'):
+            raise
+        pytest.skip(str(error))
+
+
+class Rig:
+    """Two estimators, `/left` at the published tensions and `/right` at such as hold the unit."""
+
+    def __init__(self, folder, stack):
+        self.folder = folder
+        self._stack = stack
+        self.node = stack.enter_context(spinning(lambda context: Node('looker', context=context)))
+        for joint in FILES:
+            self.start(
+                joint,
+                'estimator',
+                '--params-file',
+                str(installed_config('preliminary_design.yaml')),
+            )
+            self.drive(joint)
+        self.view = self.start('', 'view', '-p', 'port:=0')
+        self.url = view_url(self.view)
+
+    def start(self, namespace, name, *arguments):
+        moved = ('-r', f'__ns:=/{namespace}') if namespace else ()
+        return self._stack.enter_context(Program.running(name, '--ros-args', *moved, *arguments))
+
+    def drive(self, joint, rate=50.0, tensions=None):
+        path = self.folder / f'{joint}.csv'
+        pair = tensions or FILES[joint]
+        path.write_text(f'tension_l,tension_s\n{pair[0]},{pair[1]}\n')
+        return self.start(joint, 'pulley_driver', '-p', f'file:={path}', '-p', f'rate:={rate}')
+
+    def listeners(self, joint='left'):
+        """How many listen to the estimates of a joint."""
+        return self.node.count_subscribers(f'/{joint}/estimator/estimate')
+
+
+@pytest.fixture(scope='module')
+def running_rig(tmp_path_factory):
+    with free_domain() as domain, in_domain(domain), ExitStack() as stack:
+        yield Rig(tmp_path_factory.mktemp('rig'), stack)
+
+
+@pytest.fixture
+def rig(running_rig):
+    """The rig, and nobody who looks at it any more."""
+    wait_for('the pages before to be gone', lambda: running_rig.listeners() == 0)
+    return running_rig
+
+
+@pytest.fixture
+def page(rig, browser):
+    page = LivePage(browser, rig.url)
+    yield page
+    page.close()
+
+
+def test_the_page_shows_the_unit_at_its_angle_with_what_friction_allows(page):
+    page.choose('/left/estimator')
+    page.wait('model("body").data.angle.length == 1')
+    answer = solve(DESIGN, *PUBLISHED)
+    assert page.data('body')['angle'] == pytest.approx([-answer.bend_angle])
+    arcs = page.data('arcs')
+    quarter = 0.5 * math.pi
+    band = [
+        (quarter - end, quarter - start)
+        for start, end in zip(arcs['start'], arcs['end'], strict=True)
+    ]
+    assert np.array(band[:-1]) == pytest.approx(np.array(answer.admissible_angles))
+    low, high = band[-1]
+    assert low < answer.bend_angle < high
+    page.wait_for_words('equilibrium', '17.14°', '405.6 Pa', 'slides on to the stop')
+
+
+def test_what_is_not_determined_is_not_drawn(page):
+    page.choose('/right/estimator')
+    page.wait_for_words('held', 'the tensions alone do not tell')
+    page.wait('model("arcs").data.start.length > 0')
+    assert page.data('body')['angle'] == []
+    assert len(page.data('arcs')['start']) == len(solve(DESIGN, *HELD).admissible_angles)
+
+
+def test_the_map_is_that_of_the_solver_with_the_present_pair_on_it(page):
+    page.choose('/left/estimator')
+    page.wait('model("regimes").data.end.length == 1')
+    assert page.data('present') == {'tension_l': [PUBLISHED[0]], 'tension_s': [PUBLISHED[1]]}
+    (end,) = page.data('regimes')['end']
+    assert end > max(PUBLISHED)
+    codes = page.tab.evaluate('[...Bokeh.documents[0].get_model_by_name("regimes").data.codes[0]]')
+    codes = np.array(codes).reshape(100, 100)
+    for row, column in ((5, 60), (60, 5), (50, 60), (99, 40), (20, 90)):
+        pair = [(place + 0.5) * end / 100 for place in (column, row)]
+        assert codes[row, column] == REGIME_CODES[solve(DESIGN, *pair).regime]
+
+
+def test_the_last_minute_moves_on(page):
+    page.choose('/left/estimator')
+    page.wait('model("history").data.time.length > 5')
+    before = page.get('angle', 'x_range.end')
+    page.wait(f'model("angle").x_range.end > {before}')
+    history = page.data('history')
+    assert all(np.diff(history['time']) > 0.0)
+    assert history['before'][1:] == pytest.approx(history['time'][:-1], abs=1001.0)
+    answer = solve(DESIGN, *PUBLISHED)
+    assert history['angle'][-1] == pytest.approx(math.degrees(answer.bend_angle))
+    assert history['pressure'][-1] == pytest.approx(answer.pressure)
+    assert history['slip_margin'][-1] == pytest.approx(answer.slip_margin)
+    low, high = answer.admissible_angles[0]
+    assert history['admissible_low_0'][-1] == pytest.approx(math.degrees(low))
+    assert history['admissible_high_0'][-1] == pytest.approx(math.degrees(high))
+
+
+def test_another_estimator_is_chosen_in_the_drop_down(page, rig):
+    page.choose('/left/estimator')
+    page.wait_for_words('17.14°')
+    page.choose('/right/estimator')
+    page.wait_for_words('the tensions alone do not tell')
+    page.wait('model("present").data.tension_s[0] == 1.5')
+    assert set(page.data('history')['tension_s']) == {1.5}
+    wait_for('the first to be left', lambda: rig.listeners('left') == 0)
+
+
+def test_a_page_is_paused_and_goes_on_with_what_came_meanwhile(page):
+    page.choose('/left/estimator')
+    page.wait('model("history").data.time.length > 5')
+    page.press('Pause')
+    page.tab.get_by_role('button', name='Resume').wait_for()
+    page.wait('model("pause").label == "Resume"')
+    paused = page.data('history')['time']
+    # As many messages as a second page takes to draw that much.
+    other = LivePage(page.tab.context.browser, page.tab.url)
+    other.choose('/left/estimator')
+    other.wait('model("history").data.time.length > 20')
+    other.close()
+    assert page.data('history')['time'] == paused
+    page.press('Resume')
+    page.wait(f'model("history").data.time.length > {len(paused) + 20}')
+    assert page.data('history')['time'][: len(paused)] == paused
+
+
+def test_nothing_comes_from_elsewhere(page):
+    page.wait('model("estimator").options.length == 2')
+    assert page.requests
+    assert all(address.startswith('http://127.0.0.1:') for address in page.requests)
+    assert page.errors == []
+
+
+def test_the_page_works_at_a_forwarded_port_of_another_number(rig, browser):
+    with forwarded(rig.url) as url:
+        assert url.split(':')[-1] != rig.url.split(':')[-1]
+        page = LivePage(browser, url)
+        page.wait('model("history").data.time.length > 5')
+        page.close()
+
+
+def test_a_filtering_estimator_is_shown_with_the_probability_of_each_regime(rig, browser):
+    rig.start('fourth', 'estimator', '-p', 'estimation:=filtering')
+    rig.drive('fourth', tensions=HELD)
+    page = LivePage(browser, rig.url)
+    page.wait('model("estimator").options.includes("/fourth/estimator")')
+    page.choose('/fourth/estimator')
+    page.wait('model("bars").data.probability.length == 5')
+    assert page.get('probabilities', 'visible')
+    assert sum(page.data('bars')['probability']) == pytest.approx(1.0, abs=0.01)
+    page.wait_for_words('held', 'take it back')
+    page.wait('model("body").data.angle.length == 1')
+    page.close()
+
+
+def test_the_page_fits_a_phone(rig, browser):
+    page = LivePage(browser, rig.url, viewport={'width': 390, 'height': 800})
+    page.wait('model("history").data.time.length > 5')
+    assert page.tab.evaluate('document.documentElement.scrollWidth') <= 390
+    page.close()
+
+
+def test_diagnostics_are_said_in_words(page):
+    page.choose('/right/estimator')
+    page.wait_for_words('WARN', 'held, so that tensions do not determine the angle')
+    page.wait_for_words('rate [Hz]')
+
+
+def test_no_more_than_twenty_drawings_come_in_a_second_at_500_hz(rig, browser):
+    rig.drive('left', rate=450.0)
+    page = LivePage(browser, rig.url)
+    page.choose('/left/estimator')
+    page.wait('model("history").data.time.length > 5')
+    begin, drawn = page.tab.evaluate('performance.now()'), page.drawings.streamed
+    page.wait(f'model("history").data.time.length > {5 + 60}')
+    took = 1e-3 * (page.tab.evaluate('performance.now()') - begin)
+    # One may have been on its way already, at either end.
+    assert 10 <= page.drawings.streamed - drawn <= 20.0 * took + 2
+    page.close()
+
+
+def test_a_closed_tab_leaves_nobody_who_listens(rig, browser):
+    page = LivePage(browser, rig.url)
+    page.choose('/left/estimator')
+    wait_for('the page to listen', lambda: rig.listeners() == 1)
+    page.close()
+    wait_for('nobody to listen', lambda: rig.listeners() == 0)
+    wait_for(
+        'no subscription to be left',
+        lambda: rig.node.get_subscriber_names_and_types_by_node('view', '/') == [],
+    )
+
+
+def test_two_pages_at_one_estimator_listen_once(rig, browser):
+    pages = [LivePage(browser, rig.url) for _ in range(2)]
+    for page in pages:
+        page.choose('/left/estimator')
+        page.wait_for_words('17.14°')
+    assert rig.listeners() == 1
+    pages[0].close()
+    pages[1].wait('model("history").data.time.length > 5')
+    assert rig.listeners() == 1
+    pages[1].close()
+
+
+def test_invalid_and_stale_input_is_said(rig, browser):
+    estimator = rig.start('third', 'estimator')
+    page = LivePage(browser, rig.url)
+    page.wait('model("estimator").options.includes("/third/estimator")')
+    page.choose('/third/estimator')
+    page.wait_for_words('no estimate of it came yet')
+    driver = rig.drive('third', tensions=PUBLISHED)
+    page.wait_for_words('17.14°')
+    driver.end()
+    page.wait_for_words('No valid tensions come any more', 'STALE')
+    estimator.end()
+    page.close()
+
+
+def test_the_view_ends_by_a_signal_and_the_page_says_so(rig, browser):
+    view = rig.start('', 'view', '-p', 'port:=0', '-r', '__node:=other_view')
+    page = LivePage(browser, view_url(view))
+    page.wait('model("history").data.time.length > 5')
+    assert not page.tab.get_by_role('alert').is_visible()
+    assert view.end(signal.SIGTERM) == 0
+    page.tab.get_by_role('alert').wait_for()
+    assert 'Traceback' not in view.output()
+    page.close()
+    wait_for('nobody to listen', lambda: rig.listeners() == 0)

@@ -1,0 +1,160 @@
+"""Print the tables of docs/node_reference.md: what estimators have, asked of them.
+
+Topics, services, types and quality of service come from the nodes; only what each is for stands
+here. One without such a line, or a line without such a topic, is an error.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+from list_entities import estimator
+from rclpy.node import Node
+
+from tendon_statics.command_line.tables import markdown_table
+from tendon_statics.files.estimator_parameters import WIRING
+from tendon_statics.files.parameter_kinds import ChoiceParameter, SwitchParameter
+from tendon_statics.node.inputs.subscriptions import type_name
+
+INTERFACES = Path(__file__).resolve().parents[1] / 'interfaces'
+
+MEANINGS = {
+    'tensions': 'tensions of cables l and s: `data` is `[T_l, T_s]`, or both are in `effort`, by '
+    'name, in one message or two. Solved on every message',
+    'tension_l': 'in place of `tensions`: the load cell of cable l',
+    'tension_s': 'in place of `tensions`: the load cell of cable s',
+    'imu': 'an IMU that sits on the base',
+    'base_pose': 'the joint frame in a frame whose Z is up',
+    'tip_wrench': 'the force on the tip in the joint frame, at `tip_distance`',
+    'measured_bend_angle': 'rad, from an encoder or a camera: `tracking` puts the unit '
+    'there, `filtering` takes it with its noise and holds it against the model',
+    '~/regime': 'for every message, but for one that comes late or twice by its stamp',
+    '~/bend_angle': 'rad; only where determined',
+    '~/joint_pressure': 'Pa (N/m while `contact_width` is left at 1 m); only where determined',
+    '~/slip_margin': 'signed share of the friction limit that is used at that angle: within ±1 '
+    'friction can hold; only where the angle is determined',
+    '~/admissible_angles': 'rad, pairs of ends: the intervals in which friction can hold the '
+    'unit; for every valid message without a slack cable',
+    '~/unit_pose': "the unit's centre of gravity in the joint frame, with covariance; only where "
+    'determined',
+    '~/joint_state': 'the bend angle for robot_state_publisher and RViz; only where determined',
+    '~/estimate': 'all of one result, stamped; for every valid message, NaN where not determined',
+    '~/committed_estimate': 'the same, `filter_lag` later, when it is not taken back any more, '
+    'with the stamp of its own tensions, which are smoothed',
+    '~/markers': 'for RViz: the unit, the admissible angles, the regime as colour, gravity and '
+    'tip force as arrows',
+    '/diagnostics': 'how the node is, each second and when it gets worse',
+    '~/solve': 'one pair of tensions in N, with the design that the node has now, and its load or '
+    'another; `max_tension` does not apply',
+    '~/solve_inverse': 'bend angle with pressure or total tension in (the other left 0), the two '
+    'tensions out',
+    '~/reset': 'put a tracked unit to `initial_bend_angle`',
+    '~/tare': 'set the biases so that the last `tare_time` of slack cables reads 0; refused '
+    'unless both were still',
+    '~/solve_latest': 'the newest valid pair that came, with the design of now; the result as '
+    'JSON in `message`, with its `age` in s and how many invalid messages came since '
+    '(`invalid_since`), and how many measured angles were rejected (`rejected_corrections`)',
+}
+"""Name, without the namespace → what it is for"""
+
+OF_ROS = ('/rosout', '/parameter_events', '~/transition_event')
+"""Topics that every managed node has; its services are told by their types"""
+
+OWN_SERVICES = ('tendon_statics_interfaces/', 'std_srvs/')
+"""Packages of the services that are not ROS's own"""
+
+
+def settings() -> Iterator[str]:
+    """Each way to wire an estimator other than by default, one parameter at a time."""
+    for parameter in WIRING:
+        if isinstance(parameter, ChoiceParameter):
+            others = [choice for choice in parameter.choices if choice != parameter.default]
+        elif isinstance(parameter, SwitchParameter):
+            others = [str(not parameter.default).lower()]
+        else:
+            others = []
+        yield from (f'{parameter.name}: {other}' for other in others)
+
+
+def own_entities(node: Node) -> dict[tuple[str, str, str], str]:
+    """What a node has that is not ROS's own: (kind, name, type) → quality of service."""
+    own = node.get_fully_qualified_name() + '/'
+    found = {}
+    for kind, endpoints in (('in', node.subscriptions), ('out', node.publishers)):
+        for endpoint in endpoints:
+            name = endpoint.topic_name.replace(own, '~/')
+            qos = endpoint.qos_profile
+            quality = f'{qos.reliability.name.lower().replace("_", " ")}, {qos.depth}'
+            if name not in OF_ROS:
+                found[kind, name, type_name(endpoint.msg_type)] = quality
+    for service in node.services:
+        interface = type_name(service.srv_type)
+        if interface.startswith(OWN_SERVICES):
+            found['service', service.service_name.replace(own, '~/'), interface] = ''
+    return found
+
+
+@cache
+def reference() -> list[tuple[str, str, str, str, str]]:
+    """Kind, name, type, quality of service, and the setting that it takes, of all there is."""
+    with estimator() as node:
+        by_default = own_entities(node)
+    rows = [(*key, quality, '') for key, quality in by_default.items()]
+    for setting in settings():
+        name, _, value = setting.partition(': ')
+        # In quotes, since y alone is true in YAML; a switch is no text.
+        value = value if value in ('true', 'false') else json.dumps(value)
+        with estimator(f'{name}:={value}') as node:
+            more = {k: v for k, v in own_entities(node).items() if k not in by_default}
+        rows += [(*key, quality, f'`{setting}`') for key, quality in more.items()]
+    if odd := {shown(name) for _, name, *_ in rows} ^ MEANINGS.keys():
+        raise RuntimeError(f'MEANINGS in {__file__} and the node differ in {sorted(odd)}')
+    return rows
+
+
+def shown(name: str) -> str:
+    """A name as a page shows it: one in the node's namespace without its ``/``."""
+    return name if name == '/diagnostics' else name.removeprefix('/')
+
+
+def table(kind: str) -> str:
+    """Lay out what there is of a kind, in the order of MEANINGS, one line a name."""
+    order = list(MEANINGS)
+    by_name: dict[str, list[tuple[str, str, str]]] = {}
+    for of_kind, name, interface, quality, setting in reference():
+        if of_kind == kind:
+            row = (f'`{interface.replace("/msg/", "/").replace("/srv/", "/")}`', quality, setting)
+            by_name.setdefault(shown(name), []).append(row)
+    lines = []
+    for name in sorted(by_name, key=order.index):
+        rows = by_name[name]
+        types = list(dict.fromkeys(interface for interface, _, _ in rows))
+        with_settings = [setting for *_, setting in rows]
+        needed = ' or '.join(with_settings) if all(with_settings) else ''
+        if len(types) > 1:
+            types = [f'{a} with {setting}' if setting else a for a, _, setting in rows]
+            needed = ''
+        (quality,) = {quality for _, quality, _ in rows}
+        cells = (f'`{name}`', ', or '.join(types), quality, needed, MEANINGS[name])
+        lines.append(cells[:2] + cells[4:] if kind == 'service' else cells)
+    if kind == 'service':
+        return markdown_table(('service', 'type', 'meaning'), lines)
+    return markdown_table(('topic', 'type', 'quality, depth', 'only with', 'meaning'), lines)
+
+
+def definition(name: str) -> str:
+    """Return a message or service as its file defines it."""
+    return (INTERFACES / name).read_text(encoding='utf-8').strip()
+
+
+def main(what: str) -> None:
+    """Print a table (``in``, ``out`` or ``service``), or a file of interfaces/."""
+    print(table(what) if what in ('in', 'out', 'service') else definition(what))
+
+
+if __name__ == '__main__':
+    main(*sys.argv[1:])
