@@ -31,7 +31,8 @@ MEANINGS = {
     'base_pose': 'the joint frame in a frame whose Z is up',
     'tip_wrench': 'the force on the tip in the joint frame, at `tip_distance`',
     'measured_bend_angle': 'rad, from an encoder or a camera: `tracking` puts the unit '
-    'there, `filtering` takes it with its noise and holds it against the model',
+    'there, `filtering` takes it with its noise and holds it against the model, and `~/tip_force` '
+    'goes by it',
     '~/regime': 'for every message, but for one that comes late or twice by its stamp',
     '~/bend_angle': 'rad; only where determined',
     '~/joint_pressure': 'Pa (N/m while `contact_width` is left at 1 m); only where determined',
@@ -45,6 +46,9 @@ MEANINGS = {
     '~/estimate': 'all of one result, stamped; for every valid message, NaN where not determined',
     '~/committed_estimate': 'the same, `filter_lag` later, when it is not taken back any more, '
     'with the stamp of its own tensions, which are smoothed',
+    '~/tip_force': 'what pushes at the tip, as intervals along `tip_direction`; at most 50 a '
+    'second ([force at the tip](tip_force.md))',
+    '~/tip_wrench': 'that force, only while friction is at its limit and an angle is measured',
     '~/markers': 'for RViz: the unit, the admissible angles, the regime as colour, gravity and '
     'tip force as arrows',
     '/diagnostics': 'how the node is, each second and when it gets worse',
@@ -52,6 +56,7 @@ MEANINGS = {
     'another; `max_tension` does not apply',
     '~/solve_inverse': 'bend angle with pressure or total tension in (the other left 0), the two '
     'tensions out',
+    '~/solve_tip_force': 'the forces at the tip that explain a pair of tensions and an angle',
     '~/reset': 'put a tracked unit to `initial_bend_angle`',
     '~/tare': 'set the biases so that the last `tare_time` of slack cables reads 0; refused '
     'unless both were still',
