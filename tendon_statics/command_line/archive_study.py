@@ -26,7 +26,7 @@ from .replay import replay_from
 from .replay_text import invalid_text
 
 NOT_OF_RESULTS = (
-    *('verb', 'run', 'folders', 'output', 'exclude', 'workers', 'scheduler', 'format'),
+    *('command', 'verb', 'run', 'folders', 'output', 'exclude', 'workers', 'scheduler', 'format'),
     *('design', 'node'),
 )
 """Options that no result hangs on; the design counts by what stands in its file"""
