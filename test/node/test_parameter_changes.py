@@ -14,7 +14,7 @@ from ros_domain import in_domain
 from ros_programs import spinning, wait_for
 from tendon_statics_interfaces.srv import Solve
 
-from tendon_statics import default_design_path, save_design, solve
+from tendon_statics import DesignUncertainty, default_design_path, save_design, solve
 
 SLIPPING = (1.0, 2.0)
 FAR_ZONE = {'design__contact_start_angle': 1.6, 'design__contact_end_angle': 2.0}
@@ -212,3 +212,73 @@ def test_a_burst_of_requests_is_answered_to_the_last(running):
         wait_for('that it knows the client', is_known)
         asked = [client.call_async(request) for _ in range(500)]
         wait_for('every answer', lambda: all(one.done() for one in asked))
+
+
+NAMES, COVARIANCE = 'design_uncertainty__parameters', 'design_uncertainty__covariance'
+KNOWN = {NAMES: ['mass', 'friction_coefficient'], COVARIANCE: [4e-6, 0.0, 0.0, 9e-4]}
+
+
+def stddev(running) -> float:
+    """Return the deviation in rad that the node gives an angle."""
+    running.forget()
+    assert running.answer(*SLIPPING) == 'equilibrium'
+    return running.newest_estimate().bend_angle_stddev
+
+
+def expected_stddev(names, covariance) -> float:
+    uncertainty = DesignUncertainty.of_flat(names, covariance) if names else None
+    return solve(PRELIMINARY, *SLIPPING).bend_angle_stddev(0.01, uncertainty)
+
+
+def test_how_well_a_design_is_known_is_judged_as_a_whole_too(running):
+    exact, whole = expected_stddev([], []), expected_stddev(*KNOWN.values())
+    assert exact < whole
+    assert [of.successful for of in running.set_one_by_one(**KNOWN)] == [True, True]
+    assert stddev(running) == whole
+    # Fewer names wait for the numbers that belong to them.
+    (waits,) = running.set_one_by_one(**{NAMES: ['mass']})
+    assert waits.successful
+    assert 'design_uncertainty.covariance has 4 numbers; 1 parameters need 1' in waits.reason
+    assert stddev(running) == whole
+    (fits,) = running.set_one_by_one(**{COVARIANCE: [4e-6]})
+    assert (fits.successful, fits.reason) == (True, '')
+    assert stddev(running) == expected_stddev(['mass'], [4e-6])
+    # What is none by itself is refused at once.
+    for bad, named in (
+        ({NAMES: ['weight']}, "'weight', which is no design parameter"),
+        ({COVARIANCE: [-1.0]}, 'a variance below 0'),
+        ({COVARIANCE: ['much']}, "has 'much', a finite number is needed"),
+    ):
+        (refused,) = running.set_one_by_one(**bad)
+        assert not refused.successful
+        assert named in refused.reason
+
+
+def test_a_list_keeps_its_type_also_where_it_is_empty(running):
+    kinds = [ParameterType.PARAMETER_STRING_ARRAY, ParameterType.PARAMETER_DOUBLE_ARRAY]
+    names = [name.replace('__', '.') for name in KNOWN]
+
+    def types() -> list[int]:
+        answer = running.call('get_parameters', GetParameters.Request(names=names))
+        return [value.type for value in answer.values]
+
+    assert types() == kinds
+    assert running.set_estimator_parameters(**{NAMES: ['mass'], COVARIANCE: [1]}).successful
+    assert types() == kinds
+    assert running.set_estimator_parameters(**{NAMES: [], COVARIANCE: []}).successful
+    assert types() == kinds
+
+
+def test_load_design_takes_how_well_the_design_is_known_and_leaves_none_of_another(
+    tmp_path, running
+):
+    path = tmp_path / 'fitted.yaml'
+    uncertainty = DesignUncertainty.of_flat(*KNOWN.values())
+    save_design(path, PRELIMINARY, uncertainty=uncertainty)
+    answer = running.load_design(file=str(path))
+    assert answer.success, answer.message
+    assert stddev(running) == expected_stddev(*KNOWN.values())
+    assert running.load_design(file=str(path)).message == 'nothing in it differs from before'
+    answer = running.load_design(file=str(default_design_path()))
+    assert answer.success, answer.message
+    assert stddev(running) == expected_stddev([], [])
