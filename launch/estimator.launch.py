@@ -1,21 +1,23 @@
-"""Start one estimator, on request with robot_state_publisher and RViz."""
+"""Start one estimator; `ros2 launch tendon_statics estimator.launch.py -s` has its arguments."""
 
 from pathlib import Path
 
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
-from launch_ros.actions import Node
 from launch_ros.utilities import make_namespace_absolute, prefix_namespace
 
 from tendon_statics.launching.actions import (
     as_they_are,
+    declared_node_arguments,
     declared_rviz,
+    own_node,
     robot_state_publisher,
     rviz,
 )
 from tendon_statics.launching.base_turn import load_base_turn
 from tendon_statics.launching.joint_names import JointNames, load_joint_names
+from tendon_statics.launching.node_arguments import tension_remappings
 from tendon_statics.launching.rviz import Shown
 from tendon_statics.launching.unit_description import unit_description
 
@@ -34,8 +36,17 @@ def generate_launch_description():
             ),
             DeclareLaunchArgument(
                 'tensions',
-                default_value='tensions',
-                description='topic of std_msgs/Float64MultiArray [tension_l, tension_s] in N',
+                default_value='',
+                description='topic of tensions, of both cables; default: tensions',
+            ),
+            *(
+                DeclareLaunchArgument(
+                    f'tension_{cable}',
+                    default_value='',
+                    description=f'topic of the load cell of cable {cable}, with tension_source '
+                    f'wrench_pair; default: tension_{cable}',
+                )
+                for cable in ('l', 's')
             ),
             DeclareLaunchArgument(
                 'robot_state_publisher',
@@ -43,6 +54,7 @@ def generate_launch_description():
                 choices=['true', 'false'],
                 description='whether a robot_state_publisher shows the unit in RViz',
             ),
+            *declared_node_arguments(),
             declared_rviz(),
             OpaqueFunction(function=start_estimator),
         ]
@@ -57,6 +69,7 @@ def start_estimator(context):
     full_namespace = make_namespace_absolute(prefix_namespace(outer, namespace))
     node = f'{full_namespace.rstrip("/")}/estimator'
     names = load_joint_names(params_file, node, default=JointNames())
+    remappings = tension_remappings(arguments, params_file, node)
     actions = []
     shows_rviz = arguments['rviz'] == 'true'
     # First, since it may be missing, and launch leaves running what it has started by then.
@@ -65,21 +78,19 @@ def start_estimator(context):
         description = unit_description(params_file, names, base_turn=turn)
         if shows_rviz:
             shown = Shown(full_namespace.strip('/'), names.frame_id, turn is not None)
-            actions.append(rviz([shown]))
-        actions.append(robot_state_publisher(description, namespace))
+            actions.append(rviz(arguments, [shown]))
+        actions.append(robot_state_publisher(arguments, description, namespace))
     actions.append(
-        Node(
-            package='tendon_statics',
-            executable='estimator',
-            name='estimator',
-            namespace=namespace,
+        own_node(
+            arguments,
+            'estimator',
+            namespace,
             parameters=[
                 params_file,
                 as_they_are(names._asdict()),
                 *([{'markers': True}] if shows_rviz else []),
             ],
-            remappings=[('tensions', arguments['tensions'])],
-            output='screen',
+            remappings=remappings,
         )
     )
     return actions

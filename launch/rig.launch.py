@@ -1,15 +1,16 @@
-"""Start one estimator per joint; arguments: rig_file, simulate, robot_state_publisher, rviz."""
+"""Start one estimator per joint; `ros2 launch tendon_statics rig.launch.py -s` has arguments."""
 
 from pathlib import Path
 
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
-from launch_ros.actions import Node
 
 from tendon_statics.launching.actions import (
     as_they_are,
+    declared_node_arguments,
     declared_rviz,
+    own_node,
     robot_state_publisher,
     rviz,
 )
@@ -39,6 +40,7 @@ def generate_launch_description():
                 choices=['true', 'false'],
                 description='whether a robot_state_publisher per joint shows the unit in RViz',
             ),
+            *declared_node_arguments(),
             declared_rviz(),
             OpaqueFunction(function=start_rig),
         ]
@@ -56,10 +58,11 @@ def start_rig(context):
             Shown(joint.namespace, joint.names.frame_id, joint.base_turn is not None)
             for joint in joints
         ]
-        actions.append(rviz(shown))
+        actions.append(rviz(arguments, shown))
     if shows_rviz or arguments['robot_state_publisher'] == 'true':
         actions += [
             robot_state_publisher(
+                arguments,
                 unit_description(
                     joint.design_file, joint.names, f'{joint.namespace}/unit', joint.base_turn
                 ),
@@ -70,23 +73,24 @@ def start_rig(context):
         ]
     markers = {'markers': True} if shows_rviz else {}
     actions += [
-        node(joint, 'estimator', joint.estimator_parameters() | markers) for joint in joints
+        node(arguments, joint, 'estimator', joint.estimator_parameters() | markers)
+        for joint in joints
     ]
     if arguments['simulate'] == 'true':
-        actions += [node(joint, 'pulley_driver', joint.driver_parameters()) for joint in joints]
+        actions += [
+            node(arguments, joint, 'pulley_driver', joint.driver_parameters()) for joint in joints
+        ]
     return actions
 
 
-def node(joint, name, parameters):
-    return Node(
-        package='tendon_statics',
-        executable=name,
-        name=name,
-        namespace=joint.namespace,
+def node(arguments, joint, name, parameters):
+    return own_node(
+        arguments,
+        name,
+        joint.namespace,
         # What else the design file holds for /** goes to both nodes too.
         parameters=[str(joint.design_file), as_they_are(parameters)],
         remappings=list(joint.remappings.items()),
         # Where security is enabled; elsewhere it is a mere name.
         ros_arguments=['--enclave', f'/tendon_statics/{joint.namespace}/{name}'],
-        output='screen',
     )

@@ -20,8 +20,22 @@ def test_both_packages_and_the_set_up_have_the_same(path):
     assert re.search(rf"<version>{VERSION}</version>|version='{VERSION}'", text)
 
 
-def test_the_changelog_and_the_citation_name_it_with_one_date():
-    changelog = (ROOT / 'CHANGELOG.rst').read_text(encoding='utf-8')
+@pytest.mark.parametrize('tag', ['maintainer', 'license', 'url'])
+def test_the_packages_say_the_same_of_themselves(tag):
+    of_both = [
+        [(element.attrib, element.text) for element in ElementTree.parse(ROOT / path).iter(tag)]
+        for path in ('package.xml', 'interfaces/package.xml')
+    ]
+    assert of_both[0] == of_both[1] != []
+
+
+def test_each_package_has_the_license_with_it():
+    assert (ROOT / 'LICENSE').read_bytes() == (ROOT / 'interfaces' / 'LICENSE').read_bytes()
+
+
+@pytest.mark.parametrize('path', ['CHANGELOG.rst', 'interfaces/CHANGELOG.rst'])
+def test_changelogs_and_citation_name_it_with_one_date(path):
+    changelog = (ROOT / path).read_text(encoding='utf-8')
     newest = re.search(r'^(\d+\.\d+\.\d+) \((\d{4}-\d{2}-\d{2})\)\n-+$', changelog, re.MULTILINE)
     citation = yaml.safe_load((ROOT / 'CITATION.cff').read_text(encoding='utf-8'))
     assert newest.groups() == (VERSION, citation['date-released'])

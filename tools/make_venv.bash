@@ -24,6 +24,11 @@ find_python() {
   return 1
 }
 
+# rosidl's CMake fails with letters beyond ASCII in a path, colcon's set-up scripts with blanks.
+foreign=$(LC_ALL=C; printf %s "${PWD//[A-Za-z0-9\/_.,+@~=-]/}")
+[ -z "$foreign" ] || fail "the path of this folder, $PWD, has '$foreign' in it, with which ROS's" \
+  "build tools fail: move the folder to a path of letters, digits and / _ - . , + @ ~ ="
+
 has_apt_ros && set -- "${1:-/usr/bin/python3}"
 python=$(find_python "$@") || fail "needs Python 3.10 to 3.13${1:+, which $1 is not}:" \
   "install one (Debian, Ubuntu: apt install python3 python3-dev python3-venv)" \

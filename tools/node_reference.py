@@ -14,6 +14,7 @@ from pathlib import Path
 
 from list_entities import estimator
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy
 
 from tendon_statics.command_line.tables import markdown_table
 from tendon_statics.files.estimator_parameters import WIRING
@@ -33,7 +34,8 @@ MEANINGS = {
     'measured_bend_angle': 'rad, from an encoder or a camera: `tracking` puts the unit '
     'there, `filtering` takes it with its noise and holds it against the model, and `~/tip_force` '
     'goes by it',
-    '~/regime': 'for every message, but for one that comes late or twice by its stamp',
+    '~/regime': 'for every message, but for one that comes late or twice by its stamp; who '
+    'subscribes with `transient_local` hears the last at once',
     '~/bend_angle': 'rad; only where determined',
     '~/joint_pressure': 'Pa (N/m while `contact_width` is left at 1 m); only where determined',
     '~/slip_margin': 'signed share of the friction limit that is used at that angle: within ±1 '
@@ -57,6 +59,8 @@ MEANINGS = {
     '~/solve_inverse': 'bend angle with pressure or total tension in (the other left 0), the two '
     'tensions out',
     '~/solve_tip_force': 'the forces at the tip that explain a pair of tensions and an angle',
+    '~/load_design': "take a unit's parameter file, by its path or as text: all of it that may "
+    'change, or with a reason nothing',
     '~/reset': 'put a tracked unit to `initial_bend_angle`',
     '~/tare': 'set the biases so that the last `tare_time` of slack cables reads 0; refused '
     'unless both were still',
@@ -93,7 +97,10 @@ def own_entities(node: Node) -> dict[tuple[str, str, str], str]:
         for endpoint in endpoints:
             name = endpoint.topic_name.replace(own, '~/')
             qos = endpoint.qos_profile
-            quality = f'{qos.reliability.name.lower().replace("_", " ")}, {qos.depth}'
+            latched = qos.durability == DurabilityPolicy.TRANSIENT_LOCAL
+            policies = [qos.reliability, *([qos.durability] if latched else [])]
+            said = [policy.name.lower().replace('_', ' ') for policy in policies]
+            quality = ', '.join([*said, str(qos.depth)])
             if name not in OF_ROS:
                 found[kind, name, type_name(endpoint.msg_type)] = quality
     for service in node.services:

@@ -11,7 +11,7 @@ from ..physics import Arm, ArmState, ArmTracker, Regime
 from ..physics.arm.shape import joint_centres
 from .arm_options import add_arm_options, add_table_option, arm_from, table_from
 from .figures import BLUE, FORMATS, GREEN, GREY, ORANGE, SKY, VERMILION, write_figure
-from .options import UsageError
+from .options import UsageError, say_written
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -49,6 +49,7 @@ def run(options: argparse.Namespace) -> None:
     places = table.time or [float(number) for number in range(1, len(states) + 1)]
     unit = 'time [s]' if table.time else 'row'
     write_figure(options.output, lambda drawing: _draw(drawing, arm, states, places, unit), SIZE)
+    say_written(options.output, options)
 
 
 def _draw(

@@ -27,6 +27,7 @@ from .options import (
     add_load_options,
     design_name,
     print_json,
+    say_written,
 )
 from .recording_options import add_recording_options, report_damage, unit_and_recording
 from .replay_text import reading_facts
@@ -86,6 +87,8 @@ def run(options: argparse.Namespace) -> int:
         print(text)
     if options.output is not None and unwritten:
         raise OutputError(f'{options.output}: {unwritten}')
+    if options.output is not None:
+        say_written(options.output, options)
     return report_damage(recording)
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import sys
 
 from ..physics import design_fields
-from .options import add_design_option, design_from
+from .options import add_design_option, unit_from
 from .tables import markdown_table
 
 
@@ -16,7 +17,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Print every parameter with its value, unit and range."""
-    design = design_from(options)
+    unit = unit_from(options)
+    design = unit.design
+    for warning in filter(None, (*unit.misspelt, unit.addressed)):
+        print(f'tendon-statics: {warning}', file=sys.stderr)
     print(
         markdown_table(
             ('parameter', 'symbol', 'value:', 'unit', 'allowed', 'meaning'),

@@ -8,7 +8,7 @@ import re
 import shlex
 import signal
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from importlib import import_module
 from typing import Any, NoReturn
@@ -61,6 +61,18 @@ class _Version(argparse.Action):
         parser.exit()
 
 
+def with_word_first(arguments: Sequence[str], words: Iterable[str]) -> list[str]:
+    """Put the first of some words, a verb or a figure, before the options that precede it.
+
+    So options count in any place. Values of those that every verb has may be called as a word.
+    """
+    for place, argument in enumerate(arguments):
+        is_value = place > 0 and arguments[place - 1] in ('--design', '--node')
+        if argument in words and not is_value:
+            return [argument, *arguments[:place], *arguments[place + 1 :]]
+    return list(arguments)
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run ``tendon-statics``; return the exit code.
 
@@ -74,12 +86,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument('--version', action=_Version, nargs=0, help='print the version and exit')
     verbs = parser.add_subparsers(dest='verb', metavar='VERB', required=True)
+    # Whatever else is given, and missing.
+    arguments = ['--version'] if '--version' in arguments else with_word_first(arguments, VERBS)
     for verb, description in VERBS.items():
         subparser = verbs.add_parser(verb, help=description, description=description)
-        if verb in arguments:  # A verb that is not asked for is not loaded.
+        if verb in arguments[:1]:  # A verb that is not asked for is not loaded.
             module = import_module(f'{__package__}.{verb.replace("-", "_")}')
             module.add_arguments(subparser)
             subparser.set_defaults(run=module.run)
+            if verb == 'plot':
+                arguments[1:] = with_word_first(arguments[1:], module.FIGURES)
     with suppress(ValueError):  # Only the main thread may.
         # So that a half-written file is removed.
         signal.signal(signal.SIGTERM, _interrupt)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import sys
 from pathlib import Path
 
 from ..files.design_file import default_design_path
@@ -205,6 +206,12 @@ def add_format_option(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '--format', choices=('text', 'json'), default='text', help='default: %(default)s'
     )
+
+
+def say_written(path: Path, options: argparse.Namespace) -> None:
+    """Say that a file was written; where JSON is printed, beside it."""
+    is_json = getattr(options, 'format', 'text') == 'json'
+    print(f'wrote {path}', file=sys.stderr if is_json else sys.stdout)
 
 
 def print_json(content: object) -> None:

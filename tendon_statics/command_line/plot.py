@@ -7,6 +7,7 @@ from importlib import import_module
 from pathlib import Path
 
 from .figures import FORMATS, SIZE, write_figure
+from .options import say_written
 
 FIGURES = {
     'residual': "Eq. (4) over the bend angle (the paper's Fig. 2)",
@@ -43,4 +44,5 @@ def run(options: argparse.Namespace) -> int:
     module = options.module
     size = getattr(module, 'SIZE', SIZE)
     code = write_figure(options.output, lambda drawing: module.draw(drawing, options), size)
+    say_written(options.output, options)
     return code or 0

@@ -22,6 +22,7 @@ from .options import (
     add_design_option,
     add_load_options,
     add_tension_stddev_option,
+    say_written,
     tension_stddev_from,
     tension_stddev_of,
 )
@@ -102,6 +103,8 @@ def run(options: argparse.Namespace) -> int:
     if write is not None:
         write(options.output, replayed, tips, with_progress)
     print(fact_lines(facts))
+    if write is not None:
+        say_written(options.output, options)
     return report_damage(recording)
 
 

@@ -34,7 +34,7 @@ from .calibration_text import (
 from .figure_calibration import draw_calibration
 from .figure_recording import draw_replay
 from .figures import svg_of
-from .options import add_design_option, add_load_options, design_name
+from .options import add_design_option, add_load_options, design_name, say_written
 from .origin import origin_facts
 from .page import fact_table, table, warning, write_page
 from .recorded_tip_force import recorded_tip_forces, tip_force_facts
@@ -101,6 +101,7 @@ def run(options: argparse.Namespace) -> int:
         fact_table(origin_facts(options, recording)),
     ]
     write_page(path, f'Recorded session {recording.name}', parts)
+    say_written(path, options)
     if note:
         print(note, file=sys.stderr)
     return report_damage(recording)

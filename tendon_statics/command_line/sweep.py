@@ -13,7 +13,13 @@ from ..files.output_file import OutputError
 from ..physics import EquilibriumBatch
 from ..physics.batch import solve_batch
 from ..recordings.replay.table_output import write_arrays, write_table
-from .options import UsageError, add_design_option, add_load_options, design_and_load
+from .options import (
+    UsageError,
+    add_design_option,
+    add_load_options,
+    design_and_load,
+    say_written,
+)
 from .progress import with_progress
 from .tables import markdown_table
 
@@ -100,3 +106,4 @@ def run(options: argparse.Namespace) -> None:
         for name, count in zip(names, counts, strict=True)
     ]
     print(markdown_table(('regime', 'points:', '%:'), rows))
+    say_written(path, options)

@@ -23,6 +23,7 @@ from .options import (
     add_tension_stddev_option,
     design_file_and_node,
     print_json,
+    say_written,
     tension_stddev_from,
 )
 from .recording_options import add_recording_options, report_damage, unit_and_recording
@@ -85,6 +86,8 @@ def run(options: argparse.Namespace) -> int:
         print_json({**biases, 'cables': [{**of._asdict(), 'bias': of.bias} for of in tares]})
     else:
         print(_text(unit, slack, tares))
+    if options.output is not None:
+        say_written(options.output, options)
     return report_damage(recording)
 
 

@@ -62,9 +62,6 @@ class PulleyDriver(Node):
             raise StartError(str(error)) from None
         warn_of_unknown_parameters(self)
         self._rows = recording.tensions()
-        for gain, value in zip(GAINS, self._gains, strict=True):
-            if value == 0.0:
-                raise SettingError(f'{gain.name} is 0, but N = gain raw + bias needs another')
         for fault in STAMP_FAULTS:
             if settings.probability(fault) > 0.0 and isinstance(self._publisher, ArrayPublisher):
                 raise SettingError(

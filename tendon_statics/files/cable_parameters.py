@@ -34,10 +34,11 @@ GAINS = tuple(
     NumberParameter(
         f'{cable}.gain',
         _SCALE.gain,
-        'newtons per unit of what is measured: tension = gain · value + bias; not 0',
+        'newtons per unit of what is measured: tension = gain · value + bias',
         minimum=-1e6,
         maximum=1e6,
-        unit='N',
+        unit='N per unit',
+        may_be_zero=False,
     )
     for cable in CABLES
 )

@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from ..physics.design import JointDesign, design_fields
-from ..physics.design_uncertainty import DesignUncertainty
+from ..physics.design_uncertainty import DesignUncertainty, check_flat, check_names
 from ..physics.errors import DesignError
 from .installed_files import installed_config
 from .output_file import output_file
 from .parameter_file import (
-    ParameterFileError,
     dotted_parameters,
     node_parameters,
     parameter_blocks,
     read_parameters,
 )
+from .parameter_form import ParameterFileError
 
 _PREFIX = 'design.'
-_UNCERTAIN = 'design_uncertainty.parameters'
-_COVARIANCE = 'design_uncertainty.covariance'
+UNCERTAINTY = 'design_uncertainty.'
+"""What the names of the parameters begin with that say how well the design is known"""
+
+_UNCERTAIN = f'{UNCERTAINTY}parameters'
+_COVARIANCE = f'{UNCERTAINTY}covariance'
 
 
 def load_design(path: str | Path) -> JointDesign:
@@ -85,6 +90,8 @@ def uncertainty_in(parameters: Mapping[str, object]) -> DesignUncertainty | None
     ------
     DesignError
         If it is no covariance of design parameters.
+    DesignMisfitError
+        If each of the two is right by itself, and there are not as many numbers as names need.
     """
     names, covariance = parameters.get(_UNCERTAIN), parameters.get(_COVARIANCE)
     if names in (None, []) and covariance in (None, []):
@@ -92,11 +99,31 @@ def uncertainty_in(parameters: Mapping[str, object]) -> DesignUncertainty | None
     for key, values in ((_UNCERTAIN, names), (_COVARIANCE, covariance)):
         if not isinstance(values, (list, tuple)):
             raise DesignError(f'{key} is {values!r}, a list is needed', key=key)
-    try:
+    with _named():
         return DesignUncertainty.of_flat(names, covariance)  # type: ignore[arg-type]
+
+
+def check_uncertainty(parameters: Mapping[str, Any]) -> None:
+    """Check what is given of how well the design is known, names and numbers each by itself.
+
+    Raises
+    ------
+    DesignError
+        If one is not a design parameter, or the numbers are no covariance.
+    """
+    with _named():
+        check_names(list(parameters.get(_UNCERTAIN) or ()))
+        check_flat(list(parameters.get(_COVARIANCE) or ()))
+
+
+@contextmanager
+def _named() -> Iterator[None]:
+    """Say what of a parameter file is at fault where a `DesignUncertainty` is."""
+    try:
+        yield
     except DesignError as error:
-        key = f'design_uncertainty.{error.key}'
-        raise DesignError(f'design_uncertainty.{error}', key=key) from None
+        key = UNCERTAINTY + error.key
+        raise type(error)(f'{UNCERTAINTY}{error}', key=key) from None
 
 
 def save_design(

@@ -276,6 +276,14 @@ WIRING = (
         'takes less of the processor and does not count lost messages',
         choices=EXECUTORS,
     ),
+    NumberParameter(
+        'service_depth',
+        1000,
+        'requests that wait at each of its own services while it is busy; more are lost',
+        minimum=1,
+        maximum=100_000,
+        is_fixed=True,
+    ),
     SwitchParameter('autostart', True, 'whether the node configures and activates itself'),
 )
 """How the estimator is connected, which is fixed at the start"""

@@ -7,12 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from .output_file import OutputError, output_file
-from .parameter_file import (
-    ParameterFileError,
-    fitting_blocks,
-    node_parameters,
-    read_parameters,
-)
+from .parameter_file import fitting_blocks, node_parameters, read_parameters
+from .parameter_form import ParameterFileError
 
 
 def edit_parameters(

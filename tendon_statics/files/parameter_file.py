@@ -8,17 +8,13 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TypeVar
 
-from ..physics.errors import TendonStaticsError
-from .yaml_file import YamlFileError, read_yaml
+from .parameter_form import ParameterFileError, check_form, in_line
+from .yaml_file import YamlFileError, read_yaml, read_yaml_text
 
 T = TypeVar('T')
 
 ESTIMATOR = 'estimator'
 """Name of the node that computes with a unit, in whatever namespace"""
-
-
-class ParameterFileError(TendonStaticsError, ValueError):
-    """A file that is no parameter file, or none for the node; the text does not name it."""
 
 
 def read_parameters(path: Path) -> object:
@@ -27,12 +23,31 @@ def read_parameters(path: Path) -> object:
     Raises
     ------
     ParameterFileError
-        If it cannot be read, is not valid YAML, or means different things to different readers.
+        If it cannot be read, is not valid YAML, has not the form that ROS takes, or means
+        different things to different readers.
     """
     try:
-        return read_yaml(path, aliases=False)
+        content = read_yaml(path, aliases=False)
     except YamlFileError as error:
         raise ParameterFileError(str(error)) from None
+    check_form(content)
+    return content
+
+
+def parameters_in(text: str) -> object:
+    """Read what stands in a parameter file, as `read_parameters` does.
+
+    Raises
+    ------
+    ParameterFileError
+        As there.
+    """
+    try:
+        content = read_yaml_text(text, aliases=False)
+    except YamlFileError as error:
+        raise ParameterFileError(str(error)) from None
+    check_form(content)
+    return content
 
 
 def parameter_blocks(content: object, name: str = '') -> Iterator[tuple[str, object]]:
@@ -43,6 +58,28 @@ def parameter_blocks(content: object, name: str = '') -> Iterator[tuple[str, obj
                 yield name, value
             else:
                 yield from parameter_blocks(value, f'{name}/{key}'.replace('//', '/'))
+
+
+def only_for(content: object) -> str:
+    """Say that a node ``/estimator`` takes nothing from a file; empty if it does."""
+    plain = f'/{ESTIMATOR}'
+    if any(fits(name, plain) for name, _ in parameter_blocks(content)):
+        return ''
+    return (
+        f'it is addressed to {", ".join(_addressed(content))} alone, so a node started as {plain} '
+        'would refuse it; /** is for every node'
+    )
+
+
+def _addressed(content: object, name: str = '', place: str = '') -> Iterator[str]:
+    """The names that a file has parameters for, with the lines in which they stand."""
+    if isinstance(content, Mapping):
+        for key, value in content.items():
+            if key == 'ros__parameters':
+                yield name + place
+            else:
+                full = f'{name}/{key}'.replace('//', '/')
+                yield from _addressed(value, full, in_line(content, key))
 
 
 def dotted_parameters(block: object) -> dict[str, object]:
@@ -79,13 +116,22 @@ def node_parameters(content: object, node: str = '') -> dict[str, object]:
         has a parameter twice in one block.
     """
     found: dict[str, object] = {}
-    for block in fitting_blocks([*parameter_blocks(content)], node):
+    for block in fitting_blocks([*parameter_blocks(content)], node, [*_addressed(content)]):
         found |= dotted_parameters(block)
     return found
 
 
-def fitting_blocks(blocks: Sequence[tuple[str, T]], node: str = '') -> list[T]:
+def fitting_blocks(
+    blocks: Sequence[tuple[str, T]], node: str = '', addressed: Sequence[str] = ()
+) -> list[T]:
     """Of blocks with their node names those that a node takes, in the order of the file.
+
+    Parameters
+    ----------
+    node : str
+        Full name with the namespace; empty: the one estimator that the file names, or any.
+    addressed : sequence of str
+        How the error is to name the blocks, say with the lines in which they stand.
 
     Raises
     ------
@@ -95,9 +141,9 @@ def fitting_blocks(blocks: Sequence[tuple[str, T]], node: str = '') -> list[T]:
     node = node or _estimator_in([name for name, _ in blocks])
     fitting = [block for name, block in blocks if fits(name, node)]
     if blocks and not fitting:
-        others = ', '.join(dict.fromkeys(name for name, _ in blocks))
         raise ParameterFileError(
-            f'it is addressed to {others}, so {node} takes nothing from it; /** is for every node'
+            f'it is addressed to {", ".join(addressed or dict(blocks))}, so {node} takes nothing '
+            f'from it: write {node} there, or /** for every node'
         )
     return fitting
 

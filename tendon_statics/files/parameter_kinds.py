@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Any
+import re
+from collections.abc import Iterable
+from typing import Any, TypeGuard
 
 from ..physics.errors import TendonStaticsError
 
 
 class SettingError(TendonStaticsError, ValueError):
     """A parameter has a value that is not allowed; the text is for the user."""
+
+
+class MisfitError(SettingError):
+    """Values of parameters do not fit together, though each is allowed by itself."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -27,6 +33,10 @@ class Parameter:
     def allowed(self) -> str:
         """What it may be, as a person reads it; empty if that is all of its type."""
         return ''
+
+    def converted(self, value: Any) -> Any:
+        """Return a value in the type that the node keeps, if it can be meant as such."""
+        return value
 
     def check(self, value: object) -> None:
         """Raise a `SettingError` for a value that is not allowed."""
@@ -105,13 +115,24 @@ class NumberParameter(Parameter):
     minimum: float = dataclasses.field(kw_only=True)
     maximum: float = dataclasses.field(kw_only=True)
     unit: str = dataclasses.field(default='', kw_only=True)
+    may_be_zero: bool = dataclasses.field(default=True, kw_only=True)
     is_fixed: bool = dataclasses.field(default=False, kw_only=True)
 
     @property
     def allowed(self) -> str:
         """The range as a person reads it, say ``0 to 1000 N``."""
         unit = f' {self.unit}' if self.unit else ''
-        return f'{self.minimum:.10g} to {self.maximum:.10g}{unit}'
+        zero = '' if self.may_be_zero else ', not 0'
+        return f'{self.minimum:.10g} to {self.maximum:.10g}{unit}{zero}'
+
+    def converted(self, value: Any) -> Any:
+        """Return a float for a whole number, unless it counts, and a number for its text.
+
+        ``ros2 param set`` makes an integer of ``1`` and a text of ``1e-2``.
+        """
+        if isinstance(value, str) and _NUMBER.fullmatch(value):
+            value = int(value) if value.lstrip('+-').isdecimal() else float(value)
+        return value if self.is_integer else _as_float(value)
 
     def fixed(self) -> NumberParameter:
         """Return the same for a node in which it can only be set at the start."""
@@ -129,7 +150,7 @@ class NumberParameter(Parameter):
             raise SettingError(
                 f'{self.name} is {value!r}, which is not {name}: allowed is {self.allowed}'
             )
-        if not self.minimum <= value <= self.maximum:
+        if not self.minimum <= value <= self.maximum or (value == 0 and not self.may_be_zero):
             raise SettingError(f'{self.name} is {value!r}, allowed is {self.allowed}')
 
 
@@ -146,15 +167,14 @@ class VectorParameter(Parameter):
         """Three numbers."""
         return 'three finite numbers'
 
+    def converted(self, value: Any) -> Any:
+        """Return floats for whole numbers."""
+        return [_as_float(number) for number in value] if _is_list(value) else value
+
     def check(self, value: object) -> None:
         """Raise a `SettingError` unless it is a sequence of three finite numbers."""
-        # An array from ROS is no list; an empty one comes as None.
-        given = list(value) if hasattr(value, '__iter__') and not isinstance(value, str) else None
-        if (
-            given is None
-            or len(given) != 3
-            or not all(type(v) in (int, float) and math.isfinite(v) for v in given)
-        ):
+        given = list(value) if _is_list(value) else []
+        if len(given) != 3 or not all(map(_is_finite, given)):
             raise SettingError(f'{self.name} is {value!r}, but {self.allowed} are needed')
 
 
@@ -171,8 +191,36 @@ class ListParameter(Parameter):
         """What is in it."""
         return 'finite numbers' if self.of_numbers else 'names'
 
+    def converted(self, value: Any) -> Any:
+        """Return a list, with floats for whole numbers."""
+        return [_as_float(one) for one in value] if _is_list(value) else value
+
     def check(self, value: object) -> None:
         """Raise a `SettingError` unless it is a sequence of what is in it."""
-        kinds = (int, float) if self.of_numbers else (str,)
-        if not isinstance(value, (list, tuple)) or any(type(one) not in kinds for one in value):
-            raise SettingError(f'{self.name} is {value!r}, but a list of {self.allowed} is needed')
+        if not _is_list(value):
+            raise SettingError(f'{self.name} is {value!r}, a list is needed')
+        fits, needed = (_is_finite, 'a finite number') if self.of_numbers else (_is_text, 'a name')
+        for one in value:
+            if not fits(one):
+                raise SettingError(f'{self.name} has {one!r}, {needed} is needed')
+
+
+_NUMBER = re.compile(r'[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?')
+
+
+def _as_float(value: Any) -> Any:
+    """Return a float for an integer, and anything else as it is."""
+    return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
+
+
+def _is_list(value: object) -> TypeGuard[Iterable[Any]]:
+    """Whether it has members, as an array from ROS does, too."""
+    return isinstance(value, Iterable) and not isinstance(value, (str, bytes))
+
+
+def _is_finite(value: object) -> bool:
+    return type(value) in (int, float) and math.isfinite(value)  # type: ignore[arg-type]
+
+
+def _is_text(value: object) -> bool:
+    return isinstance(value, str)

@@ -13,7 +13,8 @@ from ..physics.design_uncertainty import DesignUncertainty
 from ..physics.errors import DesignError
 from ..tensions.cable_scale import CableScale
 from .design_file import design_values
-from .parameter_file import ParameterFileError, node_parameters, read_parameters
+from .parameter_file import node_parameters, only_for, read_parameters
+from .parameter_form import ParameterFileError
 from .parameter_kinds import SettingError
 from .unit_settings import misspelt, settings_from
 
@@ -25,6 +26,8 @@ class Unit:
     settings: Settings
     parameters: Mapping[str, Any] = dataclasses.field(default_factory=dict)
     """All that the file gives the estimator, by dotted name, as it stands there"""
+    addressed: str = ''
+    """That the file is for estimators in other places than a plain one alone, if it is"""
 
     @property
     def design(self) -> JointDesign:
@@ -77,7 +80,8 @@ def load_unit(path: str | Path, node: str = '') -> Unit:
     """
     path = Path(path)
     try:
-        parameters = node_parameters(read_parameters(path), node)
+        content = read_parameters(path)
+        parameters = node_parameters(content, node)
         design = design_values(parameters)
         if not design:
             raise DesignError(
@@ -90,6 +94,9 @@ def load_unit(path: str | Path, node: str = '') -> Unit:
         key = f'design.{error.key}' if error.key else ''
         raise DesignError(f'{path}: {"design." if error.key else ""}{error}', key=key) from None
     try:
-        return Unit(settings_from(parameters), parameters)
+        addressed = '' if node else only_for(content)
+        return Unit(
+            settings_from(parameters), parameters, f'{path}: {addressed}' if addressed else ''
+        )
     except SettingError as error:
         raise DesignError(f'{path}: {error}', key=getattr(error.__cause__, 'key', '')) from None

@@ -9,13 +9,14 @@ from typing import Any
 
 from ..estimation.methods import METHODS
 from ..estimation.settings import Settings
+from ..physics import Load
 from ..physics.admissible import check_bend_angle
-from ..physics.design import JointDesign
-from ..physics.errors import BendAngleError, DesignError, LoadError
+from ..physics.design import JointDesign, design_fields
+from ..physics.errors import BendAngleError, DesignError, DesignMisfitError, LoadError
 from ..physics.load import push_along
 from ..tensions.cable_scale import CableScale
 from ..tensions.watch import Plausibility
-from .design_file import uncertainty_in
+from .design_file import check_uncertainty, uncertainty_in
 from .estimator_parameters import (
     DESIGN,
     ESTIMATIONS,
@@ -24,7 +25,9 @@ from .estimator_parameters import (
     VECTORS,
     known_names,
 )
-from .parameter_kinds import Parameter, SettingError
+from .parameter_kinds import MisfitError, Parameter, SettingError
+
+GRAVITY_DIRECTION, TIP_DIRECTION = 'gravity_direction', 'tip_direction'
 
 
 def misspelt(names: Mapping[str, object]) -> list[str]:
@@ -50,6 +53,17 @@ def check_parameters(values: Mapping[str, object]) -> None:
     for parameter in ESTIMATOR_PARAMETERS:
         if parameter.name in values:
             parameter.check(values[parameter.name])
+    for field in design_fields():
+        if DESIGN + field.name in values:
+            try:
+                field.check(values[DESIGN + field.name])
+            except DesignError as error:
+                raise _refusal(error, DESIGN) from error
+    try:
+        check_uncertainty(values)
+    except DesignError as error:
+        raise _refusal(error) from error
+    _check_directions(values)
 
 
 def settings_from(values: Mapping[str, Any]) -> Settings:
@@ -60,9 +74,11 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
     Raises
     ------
     SettingError
-        If a value, or the whole, is not valid; the text names the parameter, its value and what
-        is allowed.
+        If a value is not valid; the text names the parameter, its value and what is allowed.
+    MisfitError
+        If each is valid by itself, and the whole is not.
     """
+    check_parameters(values)
     try:
         design = JointDesign.from_mapping(
             {
@@ -72,12 +88,11 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
             }
         )
     except DesignError as error:
-        raise SettingError(f'{DESIGN if error.key else ""}{error}') from None
+        raise _refusal(error, DESIGN if error.key else '') from error
     try:
         uncertainty = uncertainty_in(values)
     except DesignError as error:
-        raise SettingError(str(error)) from error
-    check_parameters(values)
+        raise _refusal(error) from error
 
     def given(parameter: Parameter) -> Any:
         return values.get(parameter.name, parameter.default)
@@ -106,43 +121,32 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
             **plain,
         )
         check_bend_angle(design, settings.initial_bend_angle)
-        _ = settings.load
-        _check_tip_direction(settings)
     except BendAngleError as error:
-        raise SettingError(f'initial_{error}') from None
-    except LoadError as error:
-        raise SettingError(str(error)) from None
+        raise MisfitError(f'initial_{error}') from None
     refusal = METHODS[values.get('estimation', ESTIMATIONS[0])].refusal(settings)
     if refusal:
         raise SettingError(refusal)
     return settings
 
 
-def _check_tip_direction(settings: Settings) -> None:
-    """Check that it is a unit vector in the plane of bending.
+def _refusal(error: DesignError, prefix: str = '') -> SettingError:
+    kind = MisfitError if isinstance(error, DesignMisfitError) else SettingError
+    return kind(f'{prefix}{error}')
 
-    Raises
-    ------
-    SettingError
-        If it is not.
-    """
+
+def _check_directions(values: Mapping[str, Any]) -> None:
     try:
-        push_along(settings.tip_direction, settings.tip_distance)
+        if GRAVITY_DIRECTION in values:
+            Load(tuple(map(float, values[GRAVITY_DIRECTION])))  # type: ignore[arg-type]
+    except LoadError as error:
+        raise SettingError(str(error)) from None
+    try:
+        if TIP_DIRECTION in values:
+            push_along(tuple(map(float, values[TIP_DIRECTION])), 0.0)
     except LoadError as error:
         raise SettingError(f'tip_{error}') from None
 
 
 def _cable_scale(cable: str, number: Mapping[str, float]) -> CableScale:
-    """Make a cable's scale.
-
-    Raises
-    ------
-    SettingError
-        If its gain is 0.
-    """
-    scale = CableScale(**{name: float(number[f'{cable}.{name}']) for name in CableScale._fields})
-    if scale.gain == 0.0:
-        raise SettingError(
-            f'{cable}.gain is 0.0, with which the tension does not follow what is measured'
-        )
-    return scale
+    """Make a cable's scale."""
+    return CableScale(**{name: float(number[f'{cable}.{name}']) for name in CableScale._fields})

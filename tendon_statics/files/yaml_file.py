@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -11,6 +12,14 @@ from ..physics.errors import TendonStaticsError
 
 class YamlFileError(TendonStaticsError, ValueError):
     """A file is not valid YAML."""
+
+
+class LinedMapping(dict[Any, Any]):
+    """A mapping that knows in which lines of the file its keys stand."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.lines: dict[Any, int] = {}
 
 
 def read_yaml(path: Path, *, aliases: bool = True) -> object:
@@ -26,6 +35,23 @@ def read_yaml(path: Path, *, aliases: bool = True) -> object:
     YamlFileError
         If the file cannot be read, is not valid YAML, has a key twice, or a number that readers of
         YAML differ in; the text does not name the file.
+    """
+    try:
+        text = path.read_text(encoding='utf-8')
+    except OSError as error:
+        raise YamlFileError(f'it cannot be read: {error.strerror}') from None
+    except UnicodeDecodeError:
+        raise YamlFileError('it is not a text file in UTF-8') from None
+    return read_yaml_text(text, aliases=aliases)
+
+
+def read_yaml_text(text: str, *, aliases: bool = True) -> object:
+    """Read what stands in a YAML file, as `read_yaml` does.
+
+    Raises
+    ------
+    YamlFileError
+        As there.
     """
     import yaml  # Here, so that the physics can be used where PyYAML is not installed.
 
@@ -46,6 +72,12 @@ def read_yaml(path: Path, *, aliases: bool = True) -> object:
                 if isinstance(key, yaml.ScalarNode):
                     seen.add(key.value)
             return super().construct_mapping(node, deep)
+
+        def construct_map(self, node: yaml.MappingNode) -> Iterator[LinedMapping]:
+            mapping = LinedMapping()
+            yield mapping
+            mapping.update(self.construct_mapping(node))
+            mapping.lines = {key.value: key.start_mark.line + 1 for key, _ in node.value}
 
         def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
             if not aliases and self.check_event(yaml.AliasEvent):
@@ -70,6 +102,9 @@ def read_yaml(path: Path, *, aliases: bool = True) -> object:
             is_integer = text.lstrip('+-').isdigit() and abs(number) < _TOO_LARGE_FOR_AN_INTEGER
             return int(text) if is_integer else number
 
+    Loader.add_constructor('tag:yaml.org,2002:map', Loader.construct_map)
+    # launch_ros writes every list of parameters so, and ROS passes over the tag.
+    Loader.add_constructor('tag:yaml.org,2002:python/tuple', Loader.construct_yaml_seq)
     Loader.add_implicit_resolver(_NUMBER_TAG, _NUMBER, list('-+.0123456789'))
     Loader.add_constructor(_NUMBER_TAG, Loader.construct_number)
     # Before all others: the first that fits counts.
@@ -79,12 +114,6 @@ def read_yaml(path: Path, *, aliases: bool = True) -> object:
             *Loader.yaml_implicit_resolvers.get(first, ()),
         ]
     Loader.add_constructor(_AMBIGUOUS_TAG, Loader.refuse_number)
-    try:
-        text = path.read_text(encoding='utf-8')
-    except OSError as error:
-        raise YamlFileError(f'it cannot be read: {error.strerror}') from None
-    except UnicodeDecodeError:
-        raise YamlFileError('it is not a text file in UTF-8') from None
     try:
         return yaml.load(text, Loader)
     except YamlFileError:

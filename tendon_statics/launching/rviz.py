@@ -15,7 +15,6 @@ from ament_index_python.packages import (
     get_package_share_directory,
 )
 
-from ..files.yaml_file import read_yaml
 from ..physics.errors import TendonStaticsError
 
 ROBOT_MODEL, MARKERS = 'rviz_default_plugins/RobotModel', 'rviz_default_plugins/MarkerArray'
@@ -41,7 +40,7 @@ def rviz_config(joints: Sequence[Shown]) -> dict[str, Any]:
     The fixed frame is that of the first joint. Others are seen where transforms join them to it.
     """
     installed = Path(get_package_share_directory('tendon_statics'), 'rviz', 'tendon_statics.rviz')
-    config: Any = read_yaml(installed)
+    config: Any = yaml.safe_load(installed.read_text(encoding='utf-8'))
     manager = config['Visualization Manager']
     displays = []
     for display in manager['Displays']:

@@ -132,8 +132,24 @@ class Reports:
                 **self._load.values(),
                 'design values left at the preliminary design': ', '.join(sorted(self.left_out)),
             },
-            findings=(*self._load.findings(time.monotonic()), *self._inputs.misfits()),
+            findings=(
+                *self._load.findings(time.monotonic()),
+                *self._inputs.misfits(),
+                *filter(None, (node.changes.misfit, self._namesakes())),
+            ),
             one_publisher=self._inputs.expects_one_publisher,
             note=note,
         )
         self._outputs.report(status)
+
+    def _namesakes(self) -> str:
+        """Say that others have the node's name; empty if none has."""
+        own = self._node.get_fully_qualified_name()
+        names = self._node.get_node_names_and_namespaces()
+        count = sum(f'{namespace.rstrip("/")}/{name}' == own for name, namespace in names)
+        if count < 2:
+            return ''
+        return (
+            f'{count} nodes are called {own}, and each publishes; one that was killed is known '
+            'for a while yet'
+        )

@@ -5,11 +5,9 @@ from __future__ import annotations
 import time
 
 from builtin_interfaces.msg import Time
-from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import JumpThreshold
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
-from rclpy.parameter import Parameter
 from rclpy.time import Time as ClockTime
 from std_msgs.msg import Float64
 
@@ -17,6 +15,7 @@ from ..estimation.estimate import KnownLoad
 from ..estimation.health import Health
 from ..estimation.methods import METHODS
 from ..estimation.regimes import INVALID
+from ..estimation.settings import Settings
 from ..estimation.unit_estimator import UnitEstimator
 from ..files.parameter_kinds import SettingError
 from ..physics import BendAngleError
@@ -27,6 +26,7 @@ from .inputs.sources import Reading, tension_source
 from .inputs.stamp_order import nanoseconds
 from .inputs.subscriptions import Subscriptions
 from .outputs.publishers import Outputs
+from .parameters.changes import Changes
 from .parameters.estimator import Wiring, declare_settings, declare_wiring, read_settings
 from .parameters.unknown import warn_of_unknown_parameters
 from .program import StartError
@@ -81,9 +81,8 @@ class Estimator(LifecycleNode):
             post_callback=lambda _jump: self._source.forget(),
         )
         warn_of_unknown_parameters(self)
-        # Last, since every declaration fires them too.
-        self.add_on_set_parameters_callback(self._check_parameters)
-        self.add_post_set_parameters_callback(self._take_parameters)
+        # Last, since every declaration would be a change.
+        self.changes = Changes(self, self._take_settings, self._warn_of_misfit)
         if self._wiring.autostart:
             read_settings(self)  # raises with the reason, where a transition could only fail
             for trigger in (self.trigger_configure, self.trigger_activate):
@@ -106,6 +105,11 @@ class Estimator(LifecycleNode):
         return self.state_label == ACTIVE
 
     @property
+    def is_configured(self) -> bool:
+        """Whether it has settings in force."""
+        return self.state_label in (INACTIVE, ACTIVE)
+
+    @property
     def tension_topics(self) -> str:
         """The topics of tensions, as a person reads them."""
         return self._inputs.tension_topics
@@ -123,6 +127,7 @@ class Estimator(LifecycleNode):
         except SettingError as error:
             self.get_logger().error(f'Not configured: {error}')
             return TransitionCallbackReturn.FAILURE
+        self.changes.begin_anew()
         self.unit = UnitEstimator(settings, self._wiring.estimation, self.health)
         for doubt in settings.doubts:
             self.get_logger().warning(doubt)
@@ -171,27 +176,9 @@ class Estimator(LifecycleNode):
             self._reports.report('deactivated')
         self.state_label = state
 
-    # Parameters: all of a change is checked before any of it is taken.
-
-    def _check_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
-        for parameter in parameters:
-            if parameter.type_ == Parameter.Type.NOT_SET:
-                reason = f'{parameter.name} cannot be deleted, only set to another value'
-                return SetParametersResult(successful=False, reason=reason)
-        if self.state_label in (INACTIVE, ACTIVE):  # before, on configuring
-            try:
-                read_settings(self, parameters)
-            except SettingError as error:
-                return SetParametersResult(successful=False, reason=str(error))
-        return SetParametersResult(successful=True)
-
-    def _take_parameters(self, parameters: list[Parameter]) -> None:
-        changes = ', '.join(f'{parameter.name} = {parameter.value!r}' for parameter in parameters)
-        self.get_logger().info(f'Changed: {changes}')
-        self._reports.left_out -= {parameter.name for parameter in parameters}
-        if self.state_label not in (INACTIVE, ACTIVE):
-            return
-        settings, before = read_settings(self), self.unit.settings
+    def _take_settings(self, settings: Settings) -> None:
+        """Take a whole set of parameters while it is inactive or active."""
+        before = self.unit.settings
         warning = self.unit.change_settings(settings)
         if warning:
             self.get_logger().warning(warning)
@@ -200,6 +187,15 @@ class Estimator(LifecycleNode):
                 self.get_logger().warning(doubt)
         if settings.input_timeout != before.input_timeout:
             self._watchdog.begin_again()
+
+    def _warn_of_misfit(self, text: str) -> None:
+        self.get_logger().warning(text)
+        if self.is_active:
+            self._reports.report()
+
+    def note_set(self, names: set[str]) -> None:
+        """Note that parameters of these names have been set."""
+        self._reports.left_out -= names
 
     # Topics
 

@@ -6,14 +6,17 @@ It imports nothing of ROS at first, so that a signal is heard while that, the sl
 from __future__ import annotations
 
 import os
+import re
 import signal
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from importlib import import_module
 from types import FrameType
 from typing import Any
 
 from ..physics.errors import TendonStaticsError
+from .program_help import node_help
 
 
 class StartError(TendonStaticsError):
@@ -33,6 +36,12 @@ def run(name: str, module: str, node_class: str, arguments: Sequence[str] | None
     """
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _exit_at_once)
+    arguments = sys.argv if arguments is None else arguments
+    asked = node_help(name, arguments[1:])
+    if asked:
+        with suppress(BrokenPipeError):  # Whoever reads it may stop, as `head` does.
+            print(asked, flush=True)
+        return 0
     try:
         import rclpy
         from rclpy.exceptions import ParameterException
@@ -44,16 +53,16 @@ def run(name: str, module: str, node_class: str, arguments: Sequence[str] | None
         make_node = getattr(import_module(module), node_class)
     except ImportError as error:
         return _say(name, f'it needs ROS 2, and {error}')
-    arguments = sys.argv if arguments is None else arguments
     try:
+        check_parameter_files(arguments)  # before ROS, which says it worse
         foreign = remove_ros_args(arguments)
-    except RuntimeError as error:  # RCLError is one
+    except (RuntimeError, TendonStaticsError) as error:  # RCLError is a RuntimeError
         return _say(name, error)
     if len(foreign) > 1:
         return _say(
             name,
             f'{foreign[1]} is not known here: it takes ROS arguments only, and they follow '
-            f'--ros-args, say {name} --ros-args --params-file unit.yaml',
+            f'--ros-args, say {name} --ros-args --params-file unit.yaml (see {name} --help)',
         )
 
     # rclpy shuts its context down on both signals. A KeyboardInterrupt on top of that would come
@@ -70,7 +79,6 @@ def run(name: str, module: str, node_class: str, arguments: Sequence[str] | None
         if interrupted:
             return 0
         try:
-            check_parameter_files(arguments)
             node = make_node()
             if name == ESTIMATOR:
                 check_parameter_files(arguments, node.get_fully_qualified_name())
@@ -126,5 +134,10 @@ def _exit_at_once(_number: int, _frame: FrameType | None) -> None:
 
 
 def _say(name: str, error: object) -> int:
-    print(f'{name} cannot start: {" ".join(str(error).split())}', file=sys.stderr)
+    text = _IN_SOURCE.sub('', ' '.join(str(error).split()))
+    print(f'{name} cannot start: {text}', file=sys.stderr)
     return 1
+
+
+_IN_SOURCE = re.compile(r', at \S+\.(?:c|cpp|h|hpp):\d+')
+"""Where in ROS's own sources an error arose, which is nothing for the user"""

@@ -10,11 +10,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from rclpy.parameter import Parameter
+from rclpy.qos import QoSProfile
 from std_srvs.srv import Trigger
 
 from ..files.cable_parameters import BIASES
 from ..physics import LoadError, TensionError, solve
 from ..tensions.tare import TareError, tare
+from .load_design import load_design
 from .outputs import messages
 
 if TYPE_CHECKING:
@@ -32,18 +34,26 @@ class Services:
         self._recent: deque[tuple[float, float, float]] = deque(maxlen=MOST_READINGS)
         if messages.INTERFACES_MISSING:
             node.get_logger().warning(
-                'No ~/solve, ~/solve_inverse and ~/estimate, since tendon_statics_interfaces is '
-                f'not there ({messages.INTERFACES_MISSING}). It is in the folder interfaces/: '
-                'colcon build --base-paths . interfaces'
+                'No ~/solve, ~/solve_inverse, ~/load_design and ~/estimate, since '
+                f'tendon_statics_interfaces is not there ({messages.INTERFACES_MISSING}). It is '
+                'in the folder interfaces/: colcon build --base-paths . interfaces'
             )
         else:
-            self._offer(messages.Solve, 'solve', self._solve, messages.refuse_solve)
-            self._offer(
-                messages.SolveInverse, 'solve_inverse', self._invert, messages.refuse_inverse
+            offer(node, messages.Solve, 'solve', self._solve, messages.refuse_solve)
+            offer(
+                node, messages.SolveInverse, 'solve_inverse', self._invert, messages.refuse_inverse
             )
-        self._offer(Trigger, 'solve_latest', self._solve_latest, messages.refuse)
-        self._offer(Trigger, 'reset', self._reset, messages.refuse)
-        self._offer(Trigger, 'tare', self._tare, messages.refuse)
+            offer(
+                node,
+                messages.LoadDesign,
+                'load_design',
+                functools.partial(load_design, node),
+                messages.refuse,
+                in_every_state=True,
+            )
+        offer(node, Trigger, 'solve_latest', self._solve_latest, messages.refuse)
+        offer(node, Trigger, 'reset', self._reset, messages.refuse)
+        offer(node, Trigger, 'tare', self._tare, messages.refuse)
         # rclpy raises where a transition does not exist in the present state, through the
         # executor, and that would end the node.
         change = node._service_change_state
@@ -60,15 +70,6 @@ class Services:
     def forget_readings(self) -> None:
         """Forget what load cells said."""
         self._recent.clear()
-
-    def _offer(
-        self,
-        service_type: type,
-        name: str,
-        answer: Callable[[Any, Any], Any],
-        refuse: Callable[[Any, str], Any],
-    ) -> None:
-        offer(self._node, service_type, name, answer, refuse)
 
     def _solve(
         self, request: messages.Solve.Request, response: messages.Solve.Response
@@ -162,11 +163,9 @@ class Services:
                     f'{of.cable} reads {of.mean:.4g} N, more than tare_limit, '
                     f'{settings.tare_limit:g} N: is it taut?',
                 )
-        result = self._node.set_parameters_atomically(
-            [
-                Parameter(bias.name, Parameter.Type.DOUBLE, of.bias)
-                for bias, of in zip(BIASES, tares, strict=True)
-            ]
+        result = self._node.changes.set_together(
+            Parameter(bias.name, Parameter.Type.DOUBLE, of.bias)
+            for bias, of in zip(BIASES, tares, strict=True)
         )
         if not result.successful:
             return messages.refuse(response, result.reason)
@@ -195,13 +194,16 @@ def offer(
     name: str,
     answer: Callable[[Any, Any], Any],
     refuse: Callable[[Any, str], Any],
+    *,
+    in_every_state: bool = False,
 ) -> None:
-    """Create a service that answers while the node is active, and else refuses."""
+    """Create a service that answers while the node is active, or always, and else refuses."""
 
     def on_request(request: Any, response: Any) -> Any:
-        if node.is_active:
+        if node.is_active or in_every_state:
             return answer(request, response)
         full_name = node.get_fully_qualified_name()
         return refuse(response, f'{full_name} is {node.state_label}; it answers when it is active')
 
-    node.create_service(service_type, f'~/{name}', on_request)
+    depth = QoSProfile(depth=node.wiring.service_depth)
+    node.create_service(service_type, f'~/{name}', on_request, qos_profile=depth)

@@ -21,6 +21,7 @@ from ..physics import TendonStaticsError, TipForce, tip_force
 from ..physics.load import push_along
 from .outputs import messages
 from .outputs.publishers import OUTPUT_DEPTH
+from .overridable_qos import OVERRIDABLE
 from .services import offer
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ class TipForces:
             message_type,
             topic,
             QoSProfile(depth=OUTPUT_DEPTH),
-            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+            qos_overriding_options=QoSOverridingOptions(OVERRIDABLE),
             event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
         )
 

@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import Any
 
 from .contact import CONTACT_LAWS, ContactLaw
-from .errors import DesignError
+from .errors import DesignError, DesignMisfitError
 
 
 @dataclasses.dataclass(frozen=True)
@@ -120,7 +120,9 @@ class JointDesign:
     Raises
     ------
     DesignError
-        If a value is not a number or out of its range, or the contact zone is empty.
+        If a value is not a number or out of its range.
+    DesignMisfitError
+        If the contact zone is empty, or the contact law takes no such zone.
     """
 
     ball_radius: float = _parameter('r', 'm', 1e-4, 1.0, 'radius of the ball joint')
@@ -161,7 +163,7 @@ class JointDesign:
             object.__setattr__(self, parameter.name, value)
         span = self.contact_end_angle - self.contact_start_angle
         if not span >= _SMALLEST_CONTACT_SPAN:
-            raise DesignError(
+            raise DesignMisfitError(
                 f'contact_end_angle is {self.contact_end_angle!r} and contact_start_angle is '
                 f'{self.contact_start_angle!r}: the end must exceed the start by at least '
                 f'{_SMALLEST_CONTACT_SPAN:g} rad',
@@ -172,7 +174,7 @@ class JointDesign:
                 self.friction_coefficient, self.contact_start_angle, self.contact_end_angle
             )
         except ValueError as error:
-            raise DesignError(str(error), key='contact_end_angle') from None
+            raise DesignMisfitError(str(error), key='contact_end_angle') from None
         object.__setattr__(self, '_law', law)
 
     @classmethod

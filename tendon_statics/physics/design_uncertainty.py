@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from .design import design_parameters
-from .errors import DesignError
+from .errors import DesignError, DesignMisfitError
 
 ROUNDING = 1e-9
 """Share of a variance by which a covariance may fail to be one"""
@@ -28,8 +28,9 @@ class DesignUncertainty:
     Raises
     ------
     DesignError
-        If a name is unknown or given twice, or the numbers are no covariance of so many
-        parameters.
+        If a name is unknown or given twice, or the numbers are no covariance.
+    DesignMisfitError
+        If they are not as many as the parameters need.
     """
 
     parameters: tuple[str, ...]
@@ -37,26 +38,17 @@ class DesignUncertainty:
 
     def __post_init__(self) -> None:
         names = tuple(self.parameters)
-        known = [parameter.name for parameter in design_parameters()]
-        for name in names:
-            if name not in known:
-                raise DesignError(
-                    f'parameters has {name!r}, which is no design parameter; '
-                    f'there are {", ".join(known)}',
-                    key='parameters',
-                )
-            if names.count(name) > 1:
-                raise DesignError(f'parameters has {name} twice', key='parameters')
+        check_names(names)
         rows = tuple(tuple(row) for row in self.covariance)
         if len(rows) != len(names) or any(len(row) != len(names) for row in rows):
-            raise DesignError(
+            raise DesignMisfitError(
                 f'covariance is not of {len(names)} rows of {len(names)} numbers, '
                 f'as {len(names)} parameters need',
                 key='covariance',
             )
         object.__setattr__(self, 'parameters', names)
         object.__setattr__(self, 'covariance', tuple(map(_numbers, rows)))
-        self._check_definite()
+        _check_definite(self.covariance)
 
     @classmethod
     def of_flat(cls, parameters: Sequence[str], covariance: Sequence[float]) -> DesignUncertainty:
@@ -69,13 +61,12 @@ class DesignUncertainty:
         """
         width = len(parameters)
         if len(covariance) != width * width:
-            raise DesignError(
+            raise DesignMisfitError(
                 f'covariance has {len(covariance)} numbers; {width} parameters need '
                 f'{width * width}, row by row',
                 key='covariance',
             )
-        rows = [covariance[width * row : width * (row + 1)] for row in range(width)]
-        return cls(tuple(parameters), tuple(map(tuple, rows)))
+        return cls(tuple(parameters), _rows(covariance, width))
 
     @property
     def flat(self) -> list[float]:
@@ -104,28 +95,65 @@ class DesignUncertainty:
             for other, covariance in zip(slopes, row, strict=True)
         )
 
-    def _check_definite(self) -> None:
-        """Check that it is symmetric and that no combination has a variance below 0.
 
-        Raises
-        ------
-        DesignError
-            If not.
-        """
-        import numpy as np  # Here, for who only solves should not wait for it.
+def check_names(names: Sequence[str]) -> None:
+    """Check that each name is of a design parameter, and none is there twice.
 
-        width = len(self.parameters)
-        covariance = np.array(self.covariance).reshape(width, width)
-        scales = np.sqrt(np.clip(np.diag(covariance), 1e-300, None))
-        correlation = covariance / np.outer(scales, scales)
-        if not np.allclose(correlation, correlation.T, rtol=0.0, atol=ROUNDING):
-            raise DesignError('covariance is not symmetric', key='covariance')
-        least = np.linalg.eigvalsh(correlation).min(initial=0.0)
-        if least < -ROUNDING * len(correlation):
+    Raises
+    ------
+    DesignError
+        If not.
+    """
+    known = [parameter.name for parameter in design_parameters()]
+    for name in names:
+        if name not in known:
             raise DesignError(
-                'covariance gives a combination of the parameters a variance below 0',
-                key='covariance',
+                f'parameters has {name!r}, which is no design parameter; '
+                f'there are {", ".join(known)}',
+                key='parameters',
             )
+        if names.count(name) > 1:
+            raise DesignError(f'parameters has {name} twice', key='parameters')
+
+
+def check_flat(covariance: Sequence[float]) -> None:
+    """Check numbers row by row, of however many parameters, if they are as many as some need.
+
+    Raises
+    ------
+    DesignError
+        If they are no covariance.
+    """
+    width = math.isqrt(len(covariance))
+    if width * width == len(covariance):
+        _check_definite(_rows(covariance, width))
+
+
+def _rows(flat: Sequence[float], width: int) -> tuple[tuple[float, ...], ...]:
+    return tuple(tuple(flat[width * row : width * (row + 1)]) for row in range(width))
+
+
+def _check_definite(rows: Sequence[Sequence[float]]) -> None:
+    """Check that a matrix is symmetric and that no combination has a variance below 0.
+
+    Raises
+    ------
+    DesignError
+        If not.
+    """
+    import numpy as np  # Here, for who only solves should not wait for it.
+
+    covariance = np.array(rows).reshape(len(rows), len(rows))
+    scales = np.sqrt(np.clip(np.diag(covariance), 1e-300, None))
+    correlation = covariance / np.outer(scales, scales)
+    if not np.allclose(correlation, correlation.T, rtol=0.0, atol=ROUNDING):
+        raise DesignError('covariance is not symmetric', key='covariance')
+    least = np.linalg.eigvalsh(correlation).min(initial=0.0)
+    if least < -ROUNDING * len(correlation):
+        raise DesignError(
+            'covariance gives a combination of the parameters a variance below 0',
+            key='covariance',
+        )
 
 
 def _numbers(row: Sequence[object]) -> tuple[float, ...]:

@@ -25,6 +25,10 @@ class DesignError(TendonStaticsError, ValueError):
         self.key = key
 
 
+class DesignMisfitError(DesignError):
+    """Values of a design that do not fit together, though each is allowed by itself."""
+
+
 class ArmError(TendonStaticsError, ValueError):
     """An arm that cannot be used, or what is asked of one.
 

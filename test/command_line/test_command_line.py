@@ -6,6 +6,7 @@ import math
 import subprocess
 import sys
 from dataclasses import asdict
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ from programs import PROGRAM, TIME_LIMIT, assert_refused, run, run_installed
 
 from tendon_statics import default_design_path, solve
 from tendon_statics.command_line.main import VERBS
+from tendon_statics.files.installed_files import installed_config
 from tendon_statics.physics import admissible_angles
 
 CASE = ['solve', '--tension-l', '1', '--tension-s', '2']
@@ -231,8 +233,58 @@ def test_a_library_that_is_missing_is_named_with_what_to_install(tmp_path, libra
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_version_is_the_packages():
-    assert run_installed('--version').stdout.startswith('tendon-statics 0.')
+@pytest.mark.parametrize(
+    'arguments', [('--version',), ('solve', '--version'), ('--version', 'plot', 'residual')]
+)
+def test_the_version_is_the_packages(arguments):
+    assert run_installed(*arguments).stdout == f'tendon-statics {version("tendon_statics")}\n'
+
+
+def test_options_count_in_every_place(tmp_path):
+    design = ('--design', str(default_design_path()))
+    usual = run(*CASE, *design).stdout
+    assert run(*design, *CASE).stdout == run('--tension-l=1', *CASE, *design).stdout == usual
+    # Though the file is called as a verb.
+    named_as_a_verb = tmp_path / 'paper'
+    named_as_a_verb.write_text(default_design_path().read_text())
+    assert run('--design', str(named_as_a_verb), *CASE).stdout == usual
+    assert run('--help', 'solve').stdout == run('solve', '--help').stdout
+    figure = tmp_path / 'figure.svg'
+    assert run('--output', str(figure), 'plot', *design, 'residual').returncode == 0
+    assert figure.exists()
+    for help_of_figure in (('--help', 'plot', 'unit'), ('plot', '--help', 'unit')):
+        assert run(*help_of_figure).stdout.startswith('usage: tendon-statics plot unit')
+
+
+RECORDING = installed_config('recorded_session.mcap')
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'name'),
+    [
+        (('plot', 'unit'), 'unit.svg'),
+        (('sweep', '--points', '3'), 'map.csv'),
+        (('replay', RECORDING), 'replay.csv'),
+        (('calibrate', RECORDING, '--motion-step-deg', '3'), 'fitted.yaml'),
+        (('report', RECORDING, '--motion-step-deg', '3'), 'report.html'),
+    ],
+    ids=lambda value: value[0] if isinstance(value, tuple) else '',
+)
+def test_every_verb_that_writes_says_so(arguments, name, tmp_path):
+    done = run(*arguments, '--output', tmp_path / name)
+    assert done.returncode == 0, done.stderr
+    assert f'wrote {tmp_path / name}\n' in done.stdout
+
+
+def test_where_json_is_printed_it_is_alone_and_what_was_written_is_said_beside_it(tmp_path):
+    path = tmp_path / 'slack.csv'
+    rows = (f'{0.01 * index},{0.001 * (-1) ** index},0.002' for index in range(50))
+    path.write_text('\n'.join(['time,tension_l,tension_s', *rows]))
+    output = tmp_path / 'unit.yaml'
+    assert f'wrote {output}\n' in run('tare', path, '--output', output).stdout
+    done = run('tare', path, '--output', output, '--format', 'json')
+    assert 'cable_l.bias' in json.loads(done.stdout)
+    assert done.stderr.endswith(f'wrote {output}\n')
 
 
 def test_the_physics_needs_neither_ros_nor_files_nor_the_command_line():

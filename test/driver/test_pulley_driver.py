@@ -282,7 +282,7 @@ def test_it_warns_of_parameters_that_nobody_has():
     [
         ('file:=/missing.csv', '/missing.csv: it cannot be read'),
         ('rate:=0.0', 'rate is 0.0, allowed is 0.01 to 20000 Hz'),
-        ('rate:=20001', 'rate is 20001, allowed is 0.01 to 20000 Hz'),
+        ('rate:=20001', 'rate is 20001.0, allowed is 0.01 to 20000 Hz'),
         ('rate:=fast', "rate is 'fast', which is not a number"),
         ('count:=-1', 'count is -1, allowed is 0 to'),
         ('count:=1.5', 'count is 1.5, which is not an integer'),
@@ -293,7 +293,10 @@ def test_it_warns_of_parameters_that_nobody_has():
         ('wrench_component:=w', "wrench_component is 'w', allowed is z or x or y or norm"),
         ('cable_names:=[a]', "cable_names is ['a'], two different names are needed"),
         ('cable_names:=[a, a]', "cable_names is ['a', 'a'], two different names"),
-        ('cable_s.gain:=0', 'cable_s.gain is 0, but N = gain raw + bias needs another'),
+        (
+            'cable_s.gain:=0',
+            '1000000 N per unit, not 0',
+        ),
         ('cable_l.bias:=.inf', 'cable_l.bias is inf, allowed is'),
         ('repeated_stamp_probability:=0.1', 'but tension_source is array, of which no message'),
     ],

@@ -1,6 +1,7 @@
 """`output_file`: an output appears whole or not at all."""
 
 import os
+import shlex
 import signal
 import stat
 import subprocess
@@ -8,9 +9,10 @@ import sys
 from pathlib import Path
 
 import pytest
-from programs import PROGRAM, TIME_LIMIT
+from programs import PROGRAM, TIME_LIMIT, assert_refused
 from ros_programs import wait_for
 
+from tendon_statics.files.installed_files import installed_config
 from tendon_statics.files.output_file import OutputError, output_file
 
 
@@ -53,6 +55,37 @@ def test_a_link_stays_a_link(tmp_path):
         temporary.write_text('new')
     assert (tmp_path / 'link.csv').is_symlink()
     assert (tmp_path / 'out.csv').read_text() == 'new'
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'name'),
+    [
+        (('sweep', '--points', '40'), 'map.npz'),
+        (('sweep', '--points', '40'), 'map.csv'),
+        (('sweep', '--points', '40'), 'map.parquet'),
+        (('replay', installed_config('recorded_session.mcap')), 'replay.mcap'),
+        (('plot', 'unit'), 'unit.png'),
+    ],
+    ids=lambda value: value if isinstance(value, str) else '',
+)
+def test_a_disk_that_gets_full_leaves_the_old_file_and_is_said_in_one_line(
+    arguments, name, tmp_path
+):
+    """By a limit on the size of files, which the system refuses to exceed in the same way."""
+    path = tmp_path / name
+    path.write_text('old')
+    command = shlex.join(map(str, (*PROGRAM, *arguments, '--output', path)))
+    done = subprocess.run(
+        ['bash', '-c', f'ulimit -f 4; exec {command}'],
+        capture_output=True,
+        text=True,
+        timeout=TIME_LIMIT,
+        check=False,
+    )
+    assert_refused(done, 'File too large')
+    assert str(path) in done.stderr
+    assert path.read_text() == 'old'
+    assert list(tmp_path.iterdir()) == [path]
 
 
 @pytest.mark.parametrize('path', ['/no/such/folder/out.csv', '/dev/null', '/tmp'])

@@ -107,12 +107,23 @@ def test_what_two_readers_take_for_two_things_is_refused_by_verb_and_node_alike(
 
 def test_a_file_for_another_node_is_refused_by_verb_and_node_alike(unit):
     path = unit(node='/winch')
-    named = 'it is addressed to /winch, so /estimator takes nothing from it'
+    named = 'it is addressed to /winch in line 1, so /estimator takes nothing from it'
     assert_refused(run('solve', '--tension-l', 1, '--tension-s', 2, '--design', path), named)
     assert run('design', '--design', path, '--node', '/winch').returncode == 0
     with Program.running('estimator', '--ros-args', '--params-file', str(path)) as program:
         assert program.wait() == 1
         assert named in program.output().splitlines()[-1]
+
+
+def test_design_says_that_a_file_is_for_an_estimator_in_another_place(unit):
+    path = unit('tension_stdev: 0.1', node='/left/estimator')
+    done = run('design', '--design', path)
+    assert done.returncode == 0
+    misspelt, addressed = done.stderr.splitlines()
+    assert 'is tension_stddev meant?' in misspelt
+    assert f'{path}: it is addressed to /left/estimator in line 1 alone' in addressed
+    assert run('design', '--design', path, '--node', '/left/estimator').stderr == f'{misspelt}\n'
+    assert run('design', '--design', unit()).stderr == ''
 
 
 def test_a_file_for_an_estimator_in_a_namespace_is_taken(unit):

@@ -2,12 +2,15 @@
 
 import itertools
 import json
+import os
 import re
 import shutil
 import signal
 import subprocess
+from pathlib import Path
 
 import pytest
+from lifecycle_msgs.srv import GetState
 from rclpy.node import Node
 from ros_programs import Program, spinning, wait_for
 from tendon_statics_interfaces.msg import Estimate
@@ -75,6 +78,50 @@ def test_the_example_rig_runs_in_simulation_and_ends_on_ctrl_c():
         assert all(json.loads(book)['messages'] > 0 for book in books)
         assert rig.output().count('process has finished cleanly') == 2 * len(joints)
         assert 'does not have' not in rig.output()
+
+
+def estimator_of(rig, namespace):
+    """Number of the process of a joint's estimator, which launch has started."""
+    for number in map(
+        int, re.findall(r'estimator-\d+\]: process started with pid \[(\d+)\]', rig)
+    ):
+        command = Path(f'/proc/{number}/cmdline')
+        if command.exists() and f'__ns:=/{namespace}' in command.read_text():
+            return number
+    return None
+
+
+@pytest.mark.parametrize('respawn', ['true', 'false'])
+def test_an_estimator_that_dies_is_named_and_comes_back_if_it_is_to(respawn):
+    arguments = ('simulate:=true', f'respawn:={respawn}', 'respawn_delay:=0.2', 'log_level:=error')
+    with (
+        spinning(lambda context: Audience(context, ['distal'])) as audience,
+        Program.running_command([*LAUNCH, *arguments]) as rig,
+    ):
+        estimates = audience.estimates['distal']
+        wait_for('estimates', lambda: estimates)
+        os.kill(estimator_of(rig.output(), 'distal'), signal.SIGKILL)
+        then = 'it is started again' if respawn == 'true' else 'the rest goes on without it'
+        named = f'/distal/estimator ended with -9: {then}'
+        wait_for('it to be said', lambda: named in rig.output())
+        if respawn == 'true':
+            estimates.clear()
+            wait_for('estimates again', lambda: estimates)
+        assert rig.end(signal.SIGINT) == 0
+        assert rig.output().count(' ended with ') == 1
+
+
+def test_a_lifecycle_manager_may_start_the_rig():
+    with (
+        spinning(lambda context: Audience(context, ['distal'])) as audience,
+        Program.running_command([*LAUNCH, 'autostart:=false']) as rig,
+    ):
+        client = audience.create_client(GetState, '/distal/estimator/get_state')
+        wait_for('the estimator', client.service_is_ready)
+        answer = client.call_async(GetState.Request())
+        wait_for('its state', answer.done)
+        assert answer.result().current_state.label == 'unconfigured'
+        assert rig.end(signal.SIGINT) == 0
 
 
 def test_a_bad_rig_file_starts_nothing_and_is_one_line(tmp_path):

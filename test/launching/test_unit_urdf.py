@@ -75,7 +75,10 @@ def test_it_has_the_numbers_of_the_design_and_a_possible_inertia(design, tmp_pat
     limit = robot.find('joint/limit')
     assert float(limit.get('lower')) == -design.max_bend_angle
     assert float(limit.get('upper')) == design.max_bend_angle
-    assert {'effort', 'velocity'} <= set(limit.keys())
+    # With 0 a planner or simulator would not move it.
+    lever = design.ball_radius + design.cable_offset
+    assert float(limit.get('effort')) == pytest.approx(1000.0 * lever)
+    assert float(limit.get('velocity')) > 0.0
     inertial = robot.find('link/inertial')
     assert float(inertial.find('mass').get('value')) == design.mass
     assert vector(inertial.find('origin')).tolist() == [0.0, 0.0, design.com_distance]
@@ -142,10 +145,16 @@ def test_a_robot_can_have_two_of_them(tmp_path):
           <link name="base"/>
           <xacro:tendon_unit name="a" parent="base" joint_name="bend_a"
             design_file="$(find tendon_statics)/config/preliminary_design.yaml"/>
-          <xacro:tendon_unit name="b" parent="a" joint_name="bend_b" design_file="{hanging}"/>
+          <xacro:tendon_unit name="b" parent="a" joint_name="bend_b" design_file="{hanging}"
+            max_tension="20" max_velocity="2.5"/>
         </robot>""")
     robot = description(path)
     assert [link.get('name') for link in robot.iter('link')] == ['base', 'a', 'b']
     assert [joint.find('parent').get('link') for joint in robot.iter('joint')] == ['base', 'a']
+    limit = robot.findall('joint/limit')[1]
+    assert float(limit.get('effort')) == pytest.approx(
+        20.0 * (PRELIMINARY.ball_radius + PRELIMINARY.cable_offset)
+    )
+    assert float(limit.get('velocity')) == 2.5
     heights = [vector(origin)[2] for origin in robot.findall('link/inertial/origin')]
     assert heights == [PRELIMINARY.com_distance, -0.02]

@@ -6,17 +6,23 @@ import signal
 import sys
 import threading
 import time
+from contextlib import suppress
+from importlib.metadata import version
 
 import numpy as np
 import pytest
 from designs import PRELIMINARY
 from listener import reliable_input
-from rclpy.qos import ReliabilityPolicy
-from ros_programs import Program, wait_for
-from std_msgs.msg import Float64
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from ros_programs import Program, spinning, wait_for
+from std_msgs.msg import Float64, Float64MultiArray, String
+from std_srvs.srv import Trigger
 from tendon_statics_interfaces.msg import Estimate
 
 from tendon_statics import Regime, default_design_path, load_design, solve
+from tendon_statics.files.driver_parameters import DRIVER_PARAMETERS
+from tendon_statics.files.estimator_parameters import ESTIMATOR_PARAMETERS
 from tendon_statics.physics import (
     StickSlipTracker,
     admissible_angles,
@@ -242,7 +248,7 @@ def test_a_changed_design_applies_to_the_next_message(running):
             {'design__mass': 0.05, 'design__ball_radius': 0.0},
             'ball_radius',
         ),
-        ({'design__mass': 0.05, 'design__masss': 0.1}, 'undeclared parameter'),
+        ({'design__mass': 0.05, 'design__masss': 0.1}, 'there is no such parameter'),
         ({'design__mass': 0.05, 'tension_stddev': -1.0}, 'tension_stddev'),
         ({'design__mass': 0.05, 'tension_stddev': 'x'}, 'tension_stddev'),
     ],
@@ -324,14 +330,29 @@ def test_a_bad_parameter_at_the_start_is_one_line_and_exit_code_1(argument, name
         assert 'Traceback' not in program.output()
 
 
-def test_a_corrupt_parameter_file_ends_the_start_without_a_traceback(tmp_path):
+@pytest.mark.parametrize(
+    ('text', 'named'),
+    [
+        ('/**:\n  ros__parameters: [', 'it is not valid YAML in line 2'),
+        ('design:\n  mass: 1.0\n', 'mass in line 2 is not below ros__parameters'),
+    ],
+)
+def test_a_corrupt_parameter_file_is_one_line_that_names_file_and_line(text, named, tmp_path):
     path = tmp_path / 'corrupt.yaml'
-    path.write_text('/**:\n  ros__parameters: [')
+    path.write_text(text)
     with Program.running('estimator', '--ros-args', '--params-file', str(path)) as program:
         assert program.wait() == 1
-        assert 'estimator cannot start: ' in program.output()
-        assert str(path) in program.output()
-        assert 'Traceback' not in program.output()
+        (line,) = program.output().splitlines()
+        assert line.startswith(f'estimator cannot start: {path}: {named}')
+
+
+def test_what_ros_itself_refuses_is_said_without_its_sources():
+    with Program.running('estimator', '--ros-args', '-p', 'mass') as program:
+        assert program.wait() == 1
+        line = program.output().splitlines()[-1]
+        assert line.startswith('estimator cannot start: ')
+        assert 'mass' in line
+        assert '.c:' not in line
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM], ids=lambda n: n.name)
@@ -574,15 +595,65 @@ def test_inputs_are_best_effort_outputs_reliable_and_both_can_be_overridden(list
         for topic in TOPICS:
             given = listener.get_publishers_info_by_topic(f'/estimator/{topic}')
             assert reliability(given) == ReliabilityPolicy.RELIABLE
-    override = 'qos_overrides./tensions.subscription.reliability:=reliable'
-    with listener.estimator('-p', override):
+    overrides = (
+        'qos_overrides./tensions.subscription.reliability:=reliable',
+        'qos_overrides./estimator/regime.publisher.durability:=volatile',
+    )
+    with listener.estimator(*(part for rule in overrides for part in ('-p', rule)), greet=False):
         wait_for(
             'the estimator that went to be forgotten',
             lambda: len(listener.get_subscriptions_info_by_topic('/tensions')) == 1,
         )
         listener.wait_for_node('estimator')
-        taken = listener.get_subscriptions_info_by_topic('/tensions')
-        assert reliability(taken) == ReliabilityPolicy.RELIABLE
+        (taken,) = listener.get_subscriptions_info_by_topic('/tensions')
+        assert taken.qos_profile.reliability == ReliabilityPolicy.RELIABLE
+        (given,) = listener.get_publishers_info_by_topic('/estimator/regime')
+        assert given.qos_profile.durability == DurabilityPolicy.VOLATILE
+
+
+def test_who_joins_later_hears_the_regime(listener):
+    """Said once, ``stale`` holds until tensions come again; nobody has to have been there."""
+    latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+    def late_regimes() -> list[str]:
+        heard = []
+        with spinning(lambda context: Node('late', context=context)) as late:
+            late.create_subscription(
+                String, 'estimator/regime', lambda message: heard.append(message.data), latched
+            )
+            wait_for('the regime', lambda: heard)
+        return heard
+
+    with listener.estimator('-p', 'input_timeout:=0.2'):
+        listener.answer(*STOP)
+        wait_for('that it is stale', lambda: listener.stale_regimes)
+        assert late_regimes() == ['stale']
+
+
+def test_the_regime_is_there_for_who_joins_later_though_nobody_heard_it():
+    heard = []
+    latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    with (
+        spinning(lambda context: Node('driver', context=context)) as driver,
+        Program.running('estimator', '--ros-args', '-p', 'input_timeout:=600.0'),
+    ):
+        tensions = driver.create_publisher(Float64MultiArray, 'tensions', 10)
+        latest = driver.create_client(Trigger, 'estimator/solve_latest')
+
+        def taken() -> bool:
+            tensions.publish(Float64MultiArray(data=list(SLIPPING)))
+            asked = latest.call_async(Trigger.Request())
+            with suppress(TimeoutError):
+                wait_for('an answer', asked.done, time_limit=2.0)
+            return asked.done() and asked.result().success
+
+        wait_for('tensions to be taken', taken)
+        with spinning(lambda context: Node('late', context=context)) as late:
+            late.create_subscription(
+                String, 'estimator/regime', lambda message: heard.append(message.data), latched
+            )
+            wait_for('the regime', lambda: heard)
+    assert heard == ['equilibrium']
 
 
 def test_what_came_by_mistake_is_said(tmp_path, listener):
@@ -603,7 +674,28 @@ def test_what_came_by_mistake_is_said(tmp_path, listener):
         assert 'Changed: design.mass = 0.03' in program.output()
 
 
-@pytest.mark.parametrize('argument', ['--help', '--params-file', 'unit.yaml'])
+@pytest.mark.parametrize(
+    'arguments', [('--help',), ('-h',), ('--ros-args', '-p', 'joint_name:=a', '--', '--help')]
+)
+@pytest.mark.parametrize('program', ['estimator', 'pulley_driver'])
+def test_help_says_what_it_takes_and_exits_with_0(program, arguments):
+    with Program.running(program, *arguments) as running:
+        assert running.wait() == 0
+        output = running.output()
+    assert output.startswith(f'usage: {program} ')
+    parameters = ESTIMATOR_PARAMETERS if program == 'estimator' else DRIVER_PARAMETERS
+    for parameter in parameters:
+        assert f'  {parameter.name} (' in output
+
+
+def test_the_version_is_said_in_every_place():
+    for arguments in (('--version',), ('--ros-args', '--version')):
+        with Program.running('estimator', *arguments) as program:
+            assert program.wait() == 0
+            assert program.output().splitlines() == [f'estimator {version("tendon_statics")}']
+
+
+@pytest.mark.parametrize('argument', ['--params-file', 'unit.yaml'])
 def test_an_argument_that_is_not_for_ros_is_refused(argument):
     with Program.running('estimator', argument) as program:
         assert program.wait() == 1

@@ -256,6 +256,21 @@ def test_a_second_publisher_is_noticed(listener):
         )
 
 
+def test_two_nodes_of_one_name_both_say_so(listener):
+    quiet = ('--ros-args', '-p', 'input_timeout:=600.0')
+    with Program.running('estimator', *quiet), Program.running('estimator', *quiet):
+        for _ in range(2):  # of the two, each once a second
+            listener.wait_for_status(WARN, '2 nodes are called /estimator, and each publishes')
+    with Program.running('estimator', *quiet, '-r', '__ns:=/left'):
+        since = len(listener.diagnostics)
+
+        def told() -> list[DiagnosticStatus]:
+            return [of for of in listener.diagnostics[since:] if of.name.startswith('left/')]
+
+        wait_for('a status', told)
+        assert 'nodes are called' not in told()[0].message
+
+
 def test_a_driver_of_another_kind_is_named(listener):
     """Which ROS by itself does not say: nothing comes, and no publisher is counted."""
     with (

@@ -124,6 +124,15 @@ def test_any_role_may_do_what_every_node_does(role):
         assert names <= ROLES[role][right]
 
 
+OF_THE_COMMAND_LINE = {
+    f'/_ros2cli_*/{service}'
+    for service in (
+        *('describe_parameters', 'get_parameter_types', 'get_parameters', 'get_type_description'),
+        *('list_parameters', 'set_parameters', 'set_parameters_atomically'),
+    )
+}
+"""What the node of the command line offers, whose name ends with the number of its process"""
+
 EXTRA = {
     'pulley_driver': {'publish': TENSIONS},
     'view': {
@@ -149,7 +158,7 @@ EXTRA = {
     'operator': {
         'subscribe': {name for rights in ROLES.values() for name in rights['publish']},
         'request': ROLES['estimator']['reply'],
-        'reply': {'/_ros2cli_*/get_type_description'},
+        'reply': OF_THE_COMMAND_LINE,
     },
 }
 """What each role is for, beside what every node does"""
@@ -172,7 +181,11 @@ def test_only_the_driver_may_publish_tensions():
 
 
 @pytest.mark.parametrize(
-    'service', ['set_parameters', 'set_parameters_atomically', 'change_state', 'reset', 'tare']
+    'service',
+    [
+        *('set_parameters', 'set_parameters_atomically', 'load_design', 'change_state', 'reset'),
+        'tare',
+    ],
 )
 def test_only_the_operator_may_change_the_estimator(service):
     assert who_may('request', f'/estimator/{service}') == {'operator'}
@@ -203,7 +216,13 @@ def test_names_hold_no_pattern_but_that_of_the_command_line():
         name for rights in ROLES.values() for of_right in rights.values() for name in of_right
     }
     patterns = {name for name in names if not re.fullmatch(r'(/[A-Za-z_][A-Za-z0-9_]*)+', name)}
-    assert patterns == {'/_ros2cli_*/get_type_description'}
+    assert patterns == OF_THE_COMMAND_LINE
+
+
+def test_the_node_of_the_command_line_may_offer_what_every_node_offers():
+    """Without them ``ros2 service call`` ends at once where security is enforced."""
+    plain = rights_needed('_ros2cli_7', lambda: Node('_ros2cli_7'))['reply']
+    assert plain == {name.replace('*', '7') for name in OF_THE_COMMAND_LINE}
 
 
 def test_the_policy_has_the_form_that_the_tool_of_ros_takes():

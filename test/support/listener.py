@@ -14,7 +14,12 @@ from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState, GetState
 from rcl_interfaces.msg import SetParametersResult
-from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParametersAtomically
+from rcl_interfaces.srv import (
+    DescribeParameters,
+    GetParameters,
+    SetParameters,
+    SetParametersAtomically,
+)
 from rclpy.context import Context
 from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.qos import QoSProfile
@@ -23,7 +28,7 @@ from ros_programs import TIME_LIMIT, Program, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Header
 from std_srvs.srv import Trigger
-from tendon_statics_interfaces.srv import SolveInverse
+from tendon_statics_interfaces.srv import LoadDesign, SolveInverse
 
 KINDS: dict[str | None, dict[str, type]] = {
     None: {},
@@ -57,7 +62,9 @@ class Listener(EstimatorClient):
         'change_state': ChangeState,
         'get_parameters': GetParameters,
         'describe_parameters': DescribeParameters,
+        'set_parameters': SetParameters,
         'set_parameters_atomically': SetParametersAtomically,
+        'load_design': LoadDesign,
         'get_state': GetState,  # the last; see call_once
     }
 
@@ -233,12 +240,17 @@ class Listener(EstimatorClient):
 
     def set_estimator_parameters(self, **values: float | str | None) -> SetParametersResult:
         """Set parameters of the estimator in one step; ``__`` stands for a dot, None deletes."""
-        parameters = [
-            Parameter(name.replace('__', '.'), value=value).to_parameter_msg()
-            for name, value in values.items()
-        ]
-        request = SetParametersAtomically.Request(parameters=parameters)
+        request = SetParametersAtomically.Request(parameters=_messages(values))
         return self.call('set_parameters_atomically', request).result
+
+    def set_one_by_one(self, **values: float | str | None) -> list[SetParametersResult]:
+        """Set parameters as ``ros2 param set`` and ``load`` do, in one request."""
+        request = SetParameters.Request(parameters=_messages(values))
+        return self.call('set_parameters', request).results
+
+    def load_design(self, **given: str) -> LoadDesign.Response:
+        """Call ``~/load_design``."""
+        return self.call('load_design', LoadDesign.Request(**given))
 
     def estimator_parameter(self, name: str) -> Any:
         """Return the value of a parameter of the estimator."""
@@ -250,6 +262,13 @@ class Listener(EstimatorClient):
         """Return descriptors of parameters of the estimator."""
         request = DescribeParameters.Request(names=list(names))
         return self.call('describe_parameters', request).descriptors
+
+
+def _messages(values: dict[str, float | str | None]) -> list:
+    return [
+        Parameter(name.replace('__', '.'), value=value).to_parameter_msg()
+        for name, value in values.items()
+    ]
 
 
 def _wrench(tension: float) -> Wrench:

@@ -53,4 +53,5 @@ def nanoseconds(stamp: Time) -> int:
 
 def seconds(time: int) -> str:
     """Return nanoseconds as a person reads them, in s."""
-    return f'{time // NANOSECONDS}.{time % NANOSECONDS:09d}'
+    whole, rest = divmod(abs(time), NANOSECONDS)
+    return f'{"-" * (time < 0)}{whole}.{rest:09d}'

@@ -14,6 +14,7 @@ from rclpy.subscription import Subscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from ...estimation.health import Health
+from ..overridable_qos import OVERRIDABLE
 from .lost_messages import LostMessages
 from .sources import TensionSource
 from .waiting_messages import waiting_messages
@@ -112,7 +113,7 @@ class Subscriptions:
             topic,
             callback,
             QoSProfile(depth=INPUT_DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT),
-            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+            qos_overriding_options=QoSOverridingOptions(OVERRIDABLE),
             # As of the outputs; of a publisher that does not fit /diagnostics tells.
             event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
         )

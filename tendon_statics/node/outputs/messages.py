@@ -27,6 +27,7 @@ from ...physics import (
 __all__ = [
     'INTERFACES_MISSING',
     'Estimate',
+    'LoadDesign',
     'Solve',
     'SolveInverse',
     'asked_load',
@@ -43,9 +44,9 @@ __all__ = [
 # The node works without the package nested in interfaces/, but offers less.
 try:
     from tendon_statics_interfaces.msg import Estimate
-    from tendon_statics_interfaces.srv import Solve, SolveInverse
+    from tendon_statics_interfaces.srv import LoadDesign, Solve, SolveInverse
 except ImportError as _error:
-    Estimate = Solve = SolveInverse = None
+    Estimate = LoadDesign = Solve = SolveInverse = None
     INTERFACES_MISSING = str(_error)
 else:
     INTERFACES_MISSING = ''

@@ -11,13 +11,14 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header, String
 from visualization_msgs.msg import MarkerArray
 
 from ...estimation.estimate import Estimate
+from ..overridable_qos import OVERRIDABLE
 from ..parameters.estimator import Wiring
 from . import messages
 from .committed import CommittedOutput
@@ -26,6 +27,12 @@ from .markers import no_markers, unit_markers
 
 OUTPUT_DEPTH = 100
 """Messages kept for a subscriber that is slow"""
+
+STATES = ('~/regime', '~/markers')
+"""Topics that say a state, which holds until they say another"""
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+"""So that who joins later hears the state; volatile subscribers fit as well"""
 
 MARKER_PERIOD = 0.05
 """Least time in s between two drawings of the unit"""
@@ -55,6 +62,7 @@ class Outputs:
             if isinstance(output.message, JointState):
                 output.message.name = [wiring.joint_name]
         self._regime = self._of_findings[0].publisher
+        self._latched_regime = ''
         self.committed: CommittedOutput | None = None
         if wiring.estimation == 'filtering' and not messages.INTERFACES_MISSING:
             publisher = self._publisher(messages.Estimate, '~/committed_estimate')
@@ -67,8 +75,8 @@ class Outputs:
         return self._node.create_publisher(
             message_type,
             topic,
-            QoSProfile(depth=OUTPUT_DEPTH),
-            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+            LATCHED if topic in STATES else QoSProfile(depth=OUTPUT_DEPTH),
+            qos_overriding_options=QoSOverridingOptions(OVERRIDABLE),
             # Its events would be waited for with every message, at more than the cost of a solve.
             # A subscriber whose QoS does not fit is warned of it by its own node.
             event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
@@ -81,6 +89,7 @@ class Outputs:
             # Of the handle itself, for a fifth of the time, since all are asked each time.
             if publisher.handle.get_subscription_count() > 0 and fill(message, finding):
                 publisher.publish(message)
+        self._latch_regime(estimate.regime.value)
         if (
             self._markers is not None
             and self._markers.handle.get_subscription_count() > 0
@@ -91,7 +100,15 @@ class Outputs:
 
     def say_regime(self, regime: str) -> None:
         """Publish what is said where there is no result, say ``stale``."""
+        self._latched_regime = regime
         self._regime.publish(String(data=regime))
+
+    def _latch_regime(self, regime: str) -> None:
+        """Publish a regime that nobody hears yet, if it is another than the last."""
+        if regime != self._latched_regime:
+            if self._regime.handle.get_subscription_count() == 0:
+                self.say_regime(regime)
+            self._latched_regime = regime
 
     def clear_drawing(self) -> None:
         """Take away what is drawn in RViz."""

@@ -8,8 +8,9 @@ from typing import Any
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.exceptions import InvalidParameterValueException
 from rclpy.node import Node
+from rclpy.parameter import Parameter as ROSParameter
 
-from ...files.parameter_kinds import ListParameter, NumberParameter, Parameter, VectorParameter
+from ...files.parameter_kinds import ListParameter, NumberParameter, Parameter
 
 
 def declare(node: Node, parameter: Parameter) -> Any:
@@ -21,17 +22,37 @@ def declare(node: Node, parameter: Parameter) -> Any:
         If it is fixed and has a value that is not allowed. What may be set again is checked as a
         whole, when it is read.
     """
+    name = parameter.name
     default = list(parameter.default) if _is_sequence(parameter) else parameter.default
+    # rclpy has no public view of overrides. `1` for a double would make it an integer.
+    given = node._parameter_overrides.get(name)
+    if given is None and isinstance(parameter, ListParameter):
+        given = ROSParameter(name, value=default)
+    if given is not None:
+        node._parameter_overrides[name] = converted(parameter, given)
     try:
         descriptor = _descriptor(parameter, with_range=True)
-        value = node.declare_parameter(parameter.name, default, descriptor).value
+        value = node.declare_parameter(name, default, descriptor).value
     except InvalidParameterValueException:
         # Our own check says what is allowed, which rclpy does not.
         descriptor = _descriptor(parameter, with_range=False)
-        value = node.declare_parameter(parameter.name, default, descriptor).value
+        value = node.declare_parameter(name, default, descriptor).value
     if parameter.is_fixed:
         parameter.check(_plain(parameter, value))
     return _plain(parameter, value)
+
+
+def converted(parameter: Parameter, given: ROSParameter) -> ROSParameter:
+    """Return what is set in the type that the node keeps, if it can be meant as such."""
+    if given.type_ == ROSParameter.Type.NOT_SET:
+        return given
+    value = parameter.converted(given.value)
+    if isinstance(parameter, ListParameter) and value == []:  # which has no type by itself
+        array = ROSParameter.Type.DOUBLE_ARRAY
+        return ROSParameter(
+            given.name, array if parameter.of_numbers else ROSParameter.Type.STRING_ARRAY, value
+        )
+    return given if value is given.value else ROSParameter(given.name, value=value)
 
 
 def declare_all(node: Node, parameters: Iterable[Parameter]) -> dict[str, Any]:
@@ -89,7 +110,6 @@ def _descriptor(parameter: Parameter, *, with_range: bool) -> ParameterDescripto
                 kind['floating_point_range'] = [FloatingPointRange(**limits)]
     else:
         kind['additional_constraints'] = parameter.allowed
-    if isinstance(parameter, (NumberParameter, VectorParameter, ListParameter)):
-        # So that `1` is as good as `1.0`, and an empty list as good as one that is not.
-        kind['dynamic_typing'] = True
+    if not parameter.is_fixed or isinstance(parameter, NumberParameter):
+        kind['dynamic_typing'] = True  # So that our own check says what is wrong.
     return ParameterDescriptor(description=description, **kind)

@@ -7,6 +7,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from rclpy.node import Node
+from rclpy.parameter import Parameter as ROSParameter
 
 from ...estimation.settings import Settings
 from ...files.design_file import default_design_path, load_design
@@ -14,7 +15,7 @@ from ...files.estimator_parameters import CHANGEABLE, DESIGN, WIRING, design_tab
 from ...files.parameter_kinds import Parameter, SettingError
 from ...files.unit_settings import settings_from
 from ...physics import DesignError, JointDesign, design_fields
-from .declaration import declare_all, read_all
+from .declaration import converted, declare_all, read_all
 
 
 class Wiring(NamedTuple):
@@ -31,6 +32,7 @@ class Wiring(NamedTuple):
     joint_name: str
     markers: bool
     executor: str
+    service_depth: int
     autostart: bool
 
 
@@ -101,6 +103,17 @@ def read_settings(node: Node, changes: Iterable[Any] = ()) -> Settings:
     """
     values = read_all(node, _changeable(), changes)
     return settings_from({**values, 'estimation': node.get_parameter('estimation').value})
+
+
+def in_its_type(given: ROSParameter) -> ROSParameter:
+    """Return what is set in the type that the node keeps, if it can be meant as such."""
+    parameter = _by_name().get(given.name)
+    return given if parameter is None else converted(parameter, given)
+
+
+@cache
+def _by_name() -> dict[str, Parameter]:
+    return {parameter.name: parameter for parameter in (*_changeable(), *WIRING)}
 
 
 @cache

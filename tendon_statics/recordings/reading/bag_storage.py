@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -15,6 +16,7 @@ from .bag_record import CDR, PURPOSE, ROS1, Record
 from .compression import decompressed, decompressed_message
 from .mcap_file import mcap_records
 from .ros1_file import ros1_records
+from .rosbag2_file import RosDecoder, is_there, rosbag2_records
 from .sqlite_file import sqlite_records
 from .topics import full_name
 
@@ -141,7 +143,10 @@ class _Reading:
         decoder = _Decoder()
         types: dict[str, str] = {}
         unreadable: Counter[str] = Counter()
-        records = _READERS.get(path.suffix, sqlite_records)(path, types, damage)
+        read = _READERS.get(path.suffix, sqlite_records)
+        if read is mcap_records and is_there():
+            read = rosbag2_records
+        records = read(path, types, damage)
         for record in self._progress(records, 'reading'):
             self.counts[record.topic] += 1
             topic = full_name(record.topic)
@@ -172,6 +177,21 @@ def _time(record: Record) -> int:
 
 
 class _Decoder:
+    """Decodes messages: with ROS's own types where `rosbag2_py` is, or with the pure library."""
+
+    def __init__(self) -> None:
+        self._ros = RosDecoder() if is_there() else None
+        self._pure: _PureDecoder | None = None
+
+    def decode(self, record: Record, data: Any) -> Any:
+        if self._ros is not None and record.encoding == CDR:
+            with suppress(LookupError):  # of a type that is not installed
+                return self._ros.decode(record.kind, data)
+        self._pure = self._pure or _PureDecoder()
+        return self._pure.decode(record, data)
+
+
+class _PureDecoder:
     """Decodes messages by the definitions of ROS 2 Jazzy, or those that the bag holds."""
 
     def __init__(self) -> None:

@@ -1,0 +1,63 @@
+"""What the programs that are nodes say of themselves: ``--help`` and ``--version``."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..files.parameter_kinds import Parameter
+
+WHAT = {
+    'estimator': 'Bend angle and joint pressure of one unit from its cable tensions, as a node.',
+    'pulley_driver': 'Plays recorded tensions where a rig has motor drivers, as a node.',
+}
+"""Program → what it does"""
+
+
+def node_help(name: str, arguments: Sequence[str]) -> str:
+    """Return what a program is to print in place of running; empty if it is to run.
+
+    Both options count wherever they stand, since no argument of ROS is called so.
+    """
+    if '--version' in arguments:
+        from importlib.metadata import version
+
+        return f'{name} {version("tendon_statics")}'
+    if '--help' in arguments or '-h' in arguments:
+        return _help(name)
+    return ''
+
+
+def _help(name: str) -> str:
+    from ..files.driver_parameters import DRIVER_PARAMETERS
+    from ..files.estimator_parameters import ESTIMATOR_PARAMETERS
+
+    lines = [
+        f'usage: {name} [--help] [--version] [--ros-args ROS-ARGUMENTS]',
+        '',
+        WHAT[name],
+        '',
+        f'  {name} --ros-args --params-file unit.yaml      parameters from a file',
+        f'  {name} --ros-args -p NAME:=VALUE               one parameter',
+        f'  {name} --ros-args -r tensions:=driver/tensions another name of a topic',
+        f'  {name} --ros-args -r __ns:=/left               a namespace',
+        '',
+        'parameters, with their defaults and what is allowed:',
+    ]
+    if name == 'estimator':
+        lines += _lines(ESTIMATOR_PARAMETERS)
+        lines.append("  design....: the unit's design; `tendon-statics design` lists it")
+    else:
+        lines += _lines(DRIVER_PARAMETERS)
+    return '\n'.join(lines)
+
+
+def _lines(parameters: Iterable[Parameter]) -> list[str]:
+    found = []
+    for parameter in parameters:
+        allowed = f', {parameter.allowed}' if parameter.allowed else ''
+        found.append(f'  {parameter.name} ({json.dumps(parameter.default)}{allowed})')
+        found.append(f'      {parameter.description.replace("`", "")}')
+    return found
