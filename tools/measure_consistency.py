@@ -61,7 +61,7 @@ def run(drawn: Session, fault: Fault, random: np.random.Generator) -> Run:
     found_after, least, seen, scores = math.inf, 1.0, 0, []
     stop = fault.design.max_bend_angle
     last = None
-    for time, angle, tension_l, tension_s in drawn.samples:
+    for time, angle, _, tension_l, tension_s in drawn.samples:
         try:
             found.update(tension_l, tension_s + fault.bias, time)
         except TensionError:

@@ -21,7 +21,7 @@ def least_consistency(drawn, design=None, *, bias=0.0, sign=1.0, seed=1, slips=1
     found = StickSlipFilter(design, tension_stddev=drawn.noise, **more)
     random = np.random.default_rng(seed)
     least, stop = 1.0, design.max_bend_angle
-    for time, angle, tension_l, tension_s in drawn.samples:
+    for time, angle, _, tension_l, tension_s in drawn.samples:
         state = found.update(tension_l, tension_s + bias, time)
         reading = sign * angle + random.normal(0.0, ENCODER)
         found.measure(np.clip(reading, -stop, stop), ENCODER)

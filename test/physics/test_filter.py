@@ -170,6 +170,21 @@ def test_pressure_comes_with_its_deviation():
     assert state.pressure_stddev > 0.0
 
 
+@pytest.mark.parametrize(('design', 'pair'), [(PRELIMINARY, (1.0, 3.0)), (HANGING, (3.0, 5.3))])
+def test_the_deviation_of_the_pressure_is_that_of_its_errors(design, pair):
+    """At a stop and at rest, where the sum of the tensions tells it."""
+    random = np.random.default_rng(1)
+    scores = []
+    for _ in range(some_of(40)):
+        found = StickSlipFilter(design, tension_stddev=NOISE)
+        noisy = random.normal(pair, NOISE, (150, 2)).tolist()
+        for state in (fed(found, noisy)[-1], found.committed):
+            truth = StickSlipTracker(design, state.bend_angle).update(*pair).pressure
+            scores.append((state.pressure - truth) / state.pressure_stddev)
+    assert np.mean(np.abs(scores) < 2.0) > 0.85
+    assert np.std(scores) > 0.1
+
+
 def test_bad_input_changes_nothing():
     found = StickSlipFilter(PRELIMINARY, tension_stddev=NOISE)
     fed(found, [(1.0, 1.5)] * 10)
@@ -206,7 +221,7 @@ def test_the_truth_of_a_random_session_is_within_the_interval(unit):
     drawn = session(unit, 'ramps', 0.01, 200.0, 8.0, np.random.default_rng(12))
     found = StickSlipFilter(drawn.design, tension_stddev=drawn.noise)
     covered = []
-    for time, truth, *pair in drawn.samples:
+    for time, truth, _, *pair in drawn.samples:
         low, high = found.update(*pair, time).interval(0.95)
         covered.append(low - 1e-9 <= truth <= high + 1e-9)
     assert np.mean(covered) > 0.7

@@ -31,6 +31,8 @@ class Score(NamedTuple):
     width: float
     """Mean width of the 95 % intervals in deg"""
     committed_off: float
+    pressure_covered: float
+    """Within two of its deviations, of those samples that have a pressure"""
 
 
 def score(session: Session) -> Score:
@@ -42,8 +44,9 @@ def score(session: Session) -> Score:
     )
     tracker = StickSlipTracker(session.design)
     covered, off, tracker_off, width, committed_off, committed = 0, 0, 0, 0.0, 0, 0
+    pressed, pressed_well = 0, 0
     angles = dict(zip(session.time.tolist(), session.bend_angle.tolist(), strict=True))
-    for time, truth, tension_l, tension_s in session.samples:
+    for time, truth, pressure, tension_l, tension_s in session.samples:
         try:
             state = found.update(tension_l, tension_s, time)
             tracker.update(tension_l, tension_s)
@@ -54,6 +57,9 @@ def score(session: Session) -> Score:
         off += abs(state.bend_angle - truth) > FAR
         tracker_off += abs(tracker.bend_angle - truth) > FAR
         width += high - low
+        if state.pressure is not None and math.isfinite(pressure):
+            pressed += 1
+            pressed_well += abs(state.pressure - pressure) <= 2.0 * state.pressure_stddev
         if found.committed is not None:
             committed += 1
             error = found.committed.bend_angle - angles[found.committed.time]
@@ -65,6 +71,7 @@ def score(session: Session) -> Score:
         tracker_off / count,
         math.degrees(width / count),
         committed_off / max(committed, 1),
+        pressed_well / pressed if pressed else math.nan,
     )
 
 
@@ -89,13 +96,14 @@ def main() -> int:
         if kinds:
             rows.append((name, *_row([one for kind in kinds for one in scores[kind]])))
     titles = ('kind', 'covered [%]:', 'least [%]:', 'width [deg]:', 'off [%]:')
-    print(markdown_table((*titles, 'off, committed [%]:', 'off, tracker [%]:'), rows))
+    more = ('off, committed [%]:', 'off, tracker [%]:', 'pressure covered [%]:')
+    print(markdown_table((*titles, *more), rows))
     print(f'\n{options.sessions} sessions of {options.seconds:g} s, seed {options.seed}')
     return 0
 
 
 def _row(scores: list[Score]) -> tuple[str, ...]:
-    mean = Score(*np.mean(scores, axis=0))
+    mean = Score(*np.nanmean(scores, axis=0))
     least = min(one.covered for one in scores)
     return (
         f'{100.0 * mean.covered:.1f}',
@@ -104,6 +112,7 @@ def _row(scores: list[Score]) -> tuple[str, ...]:
         f'{100.0 * mean.off:.2f}',
         f'{100.0 * mean.committed_off:.2f}',
         f'{100.0 * mean.tracker_off:.1f}',
+        f'{100.0 * mean.pressure_covered:.1f}',
     )
 
 

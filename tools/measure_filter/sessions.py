@@ -93,6 +93,8 @@ class Session(NamedTuple):
     time: Floats
     bend_angle: Floats
     """True, in rad"""
+    pressure: Floats
+    """True, in Pa; NaN where the model stands behind none"""
     true_tension_s: Floats
     """In N"""
     tension_l: Floats
@@ -100,9 +102,9 @@ class Session(NamedTuple):
     tension_s: Floats
 
     @property
-    def samples(self) -> Iterator[tuple[float, float, float, float]]:
-        """Time, true angle and measured tensions, sample by sample."""
-        arrays = (self.time, self.bend_angle, self.tension_l, self.tension_s)
+    def samples(self) -> Iterator[tuple[float, float, float, float, float]]:
+        """Time, true angle and pressure and measured tensions, sample by sample."""
+        arrays = (self.time, self.bend_angle, self.pressure, self.tension_l, self.tension_s)
         return zip(*(array.tolist() for array in arrays), strict=True)
 
 
@@ -138,14 +140,14 @@ def session(
         normals = random.normal(size=(len(uncertainty.parameters), 1))
         (true,) = draw_designs(design, uncertainty, normals)
     tracker = StickSlipTracker(true)
-    angles = [
-        tracker.update(*pair).bend_angle
-        for pair in zip(tension_l.tolist(), tension_s.tolist(), strict=True)
+    states = [
+        tracker.update(*pair) for pair in zip(tension_l.tolist(), tension_s.tolist(), strict=True)
     ]
     return Session(
         *(unit, program, noise, design, uncertainty),
         np.arange(len(drive)) / rate,
-        np.array(angles),
+        np.array([state.bend_angle for state in states]),
+        np.array([state.pressure for state in states], float),
         tension_s,
         *(cable + random.normal(0.0, noise, len(drive)) for cable in (tension_l, tension_s)),
     )

@@ -55,14 +55,15 @@ class Ensemble:
         seed: int,
     ) -> None:
         parameters = () if uncertainty is None else uncertainty.parameters
-        normals = draw_normals(MEMBERS, 3 + len(parameters), seed)
+        normals = draw_normals(MEMBERS, 4 + len(parameters), seed)
         self._scores = CAUTION * np.sort(normals[0])
+        self._sum_scores = CAUTION * normals[3]
         self._spread = normals[0]
         self._biases = bias_stddev * normals[1:3, None]
         self.units: JointDesign | StackedDesign = design
         """The design of all members, or one of each"""
         if uncertainty is not None and parameters:
-            self.units = StackedDesign(list(draw_designs(design, uncertainty, normals[3:])))
+            self.units = StackedDesign(list(draw_designs(design, uncertainty, normals[4:])))
 
     @property
     def stop(self) -> Any:
@@ -101,6 +102,22 @@ class Ensemble:
         tensions: Floats = estimate.value[:, :, None] + errors
         tensions -= self._biases
         return tensions
+
+    def pressing(self, tensions: Floats, error: Floats) -> Floats:
+        """Return the tensions with which members press their joints, in N.
+
+        The errors by which members differ in their drive leave T_l + T_s alone. Its own error
+        hardly moves a unit, but is most of that of the pressure.
+
+        Parameters
+        ----------
+        tensions : ndarray
+            Of members at one pair, shape ``(2, members)``.
+        error : ndarray
+            Standard errors of T_l and T_s in N.
+        """
+        pressing: Floats = tensions + 0.5 * np.hypot(*error) * self._sum_scores
+        return pressing
 
     def slips(self, tensions: Floats, loads: list[Load]) -> Slip:
         """Return slip functions to the side of the last pair's stronger cable.

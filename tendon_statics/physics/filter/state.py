@@ -51,6 +51,7 @@ class FilterState:
         moved: NDArray[np.bool_],
         ensemble: Ensemble | None,
         member_tensions: Floats,
+        tension_errors: Floats,
         provisional: bool,
         angle_assured: bool,
         consistency: float = math.nan,
@@ -66,6 +67,7 @@ class FilterState:
         self._moved = moved
         self._ensemble = ensemble
         self._member_tensions = member_tensions
+        self._tension_errors = tension_errors
 
     @classmethod
     def slack(
@@ -79,6 +81,7 @@ class FilterState:
             moved=nobody > 0.0,
             ensemble=None,
             member_tensions=np.empty((2, 0)),
+            tension_errors=np.zeros(2),
             provisional=True,
             angle_assured=False,
         )
@@ -131,8 +134,12 @@ class FilterState:
 
     @cached_property
     def _step(self) -> Step:
+        return self._step_of(self._member_tensions)
+
+    def _step_of(self, tensions: Floats) -> Step:
+        """What tensions of the members mean where they are."""
         assert self._ensemble is not None
-        slips = self._ensemble.slips(self._member_tensions[:, None], [self.load])
+        slips = self._ensemble.slips(tensions[:, None], [self.load])
         return Step(slips.part(0), self._angles, self._ensemble.stop)
 
     @cached_property
@@ -158,8 +165,10 @@ class FilterState:
         """Pressure of each member in Pa, NaN where the model does not stand behind it."""
         if self._ensemble is None:
             return np.empty(0)
+        pressing = self._ensemble.pressing(self._member_tensions, self._tension_errors)
         with np.errstate(all='ignore'):
-            slips, probe = self._step.slips, self._step.probe
+            step = self._step_of(pressing)
+            slips, probe = step.slips, step.probe
             state = probe[8]
             friction = np.minimum(probe[5], state[0])
             normal = slips.law.normal(state, friction)

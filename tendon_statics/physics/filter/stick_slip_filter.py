@@ -186,12 +186,15 @@ class StickSlipFilter:
                     samples[first + row],
                     Tensions(*estimate.value[:, first + row].tolist()),
                     *(path[row : row + 2], paths[:, row].copy()),
+                    estimate.error[:, first + row].copy(),
                     provisional=False,
                 )
             )
         self._committed, self._newest = path[committed], path[-1]
         state = self._state(
-            samples[-1], tensions, path[-2:], paths[:, -1].copy(), provisional=True
+            *(samples[-1], tensions, path[-2:], paths[:, -1].copy()),
+            estimate.error[:, -1].copy(),
+            provisional=True,
         )
         for _ in range(settled):
             samples.popleft()
@@ -207,6 +210,7 @@ class StickSlipFilter:
         tensions: Tensions,
         path: Floats,
         member_tensions: Floats,
+        tension_errors: Floats,
         *,
         provisional: bool,
     ) -> FilterState:
@@ -217,6 +221,7 @@ class StickSlipFilter:
             moved=path[1] != path[0],
             ensemble=self._ensemble,
             member_tensions=member_tensions,
+            tension_errors=tension_errors,
             provisional=provisional,
             angle_assured=self._assured,
             consistency=self.consistency,
