@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from .arm import (
         Arm,
         ArmState,
+        ArmTipForce,
         ArmTracker,
         ArmUnit,
         Cable,
@@ -47,6 +48,7 @@ if TYPE_CHECKING:
         arm_margins,
         arm_slip_order,
         arm_tensions_for,
+        arm_tip_force,
     )
     from .batch import EquilibriumBatch, solve_batch
     from .calibration import Calibration, LawComparison, calibrate, compare_laws
@@ -58,6 +60,7 @@ __all__ = [
     'Arm',
     'ArmError',
     'ArmState',
+    'ArmTipForce',
     'ArmTracker',
     'ArmUnit',
     'BendAngleError',
@@ -94,6 +97,7 @@ __all__ = [
     'arm_margins',
     'arm_slip_order',
     'arm_tensions_for',
+    'arm_tip_force',
     'calibrate',
     'compare_laws',
     'contact_coefficients',
@@ -114,6 +118,7 @@ __all__ = [
 _NEEDING_NUMPY = {
     'Arm': '.arm',
     'ArmState': '.arm',
+    'ArmTipForce': '.arm',
     'ArmTracker': '.arm',
     'ArmUnit': '.arm',
     'Cable': '.arm',
@@ -127,6 +132,7 @@ _NEEDING_NUMPY = {
     'arm_margins': '.arm',
     'arm_slip_order': '.arm',
     'arm_tensions_for': '.arm',
+    'arm_tip_force': '.arm',
     'calibrate': '.calibration',
     'compare_laws': '.calibration',
     'solve_batch': '.batch',
