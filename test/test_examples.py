@@ -11,7 +11,7 @@ import pytest
 from make_docs import ROOT
 from ros_programs import Program, wait_for
 
-from tendon_statics import load_design
+from tendon_statics import default_design_path, load_design
 
 EXAMPLES = ROOT / 'examples'
 
@@ -53,6 +53,31 @@ def test_comparing_laws_says_what_the_recording_tells(tmp_path):
     assert 'friction_circle  at 1 N and 2 N: held' in printed
     assert 'elastic_seat     ruled out' in printed
     assert 'the data cannot tell merged and friction_circle apart' in printed
+
+
+def test_an_arm_is_followed_through_its_load_cycle(tmp_path):
+    printed = run_script('arm.py', folder=tmp_path)
+    assert printed.startswith('sample 18: moving [5]; tip at +0.00 mm')
+    assert 'moving [1, 2, 3, 4, 5]' in printed
+    assert 'In the end the joints are at -29.4°, -21.7°, -13.0°, -28.1°, -18.0°.' in printed
+    assert 'The tip is known to 0.55 mm' in printed
+
+
+def test_an_arm_is_followed_past_rows_that_are_none(tmp_path):
+    table = tmp_path / 'tensions.csv'
+    rows = '1,1,1,1\n1,1,-1,1\n1,1,0,1\n1,1,1,1\n'
+    table.write_text(f'l_mid,s_mid,l_tip,s_tip\n{rows}', encoding='utf-8')
+    arm = default_design_path().with_name('arm.yaml')
+    printed = run_script('arm.py', arm, table, folder=tmp_path)
+    assert 'sample 2: the tension of cable l_tip is -1.0 N' in printed
+    assert 'sample 3: a joint is slack' in printed
+
+
+def test_what_pushes_is_a_set_at_rest_and_a_number_in_motion(tmp_path):
+    printed = run_script('tip_force.py', folder=tmp_path)
+    assert 'at rest         -1.189 to +0.075 N, at 95 %' in printed
+    assert 'slipping to s   +0.059 N ± 0.010 N' in printed
+    assert 's_tip 1.3 N     -0.155 to +0.032 N\n    joint 1 would slip below, joint 4' in printed
 
 
 def test_the_subscriber_prints_changes_of_regime_and_says_when_nothing_comes(listener):

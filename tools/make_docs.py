@@ -38,7 +38,10 @@ PAGES = (
 )
 TUTORIALS = tuple(
     f'docs/tutorials/{name}.md'
-    for name in ('first_estimate', 'own_unit', 'three_joints', 'bag_to_report')
+    for name in (
+        *('first_estimate', 'own_unit', 'three_joints', 'bag_to_report'),
+        *('an_arm', 'force_at_the_tip'),
+    )
 )
 """Pages whose blocks are run in order, as a reader would"""
 

@@ -10,6 +10,7 @@ ARM_VERBS = {
     'margins': 'how near every joint is to slipping, under one set of tensions',
     'order': 'the order in which the joints slip while the tensions change',
     'invert': 'the tensions that bring one joint to its limit first',
+    'tip-force': 'the forces at the tip with which friction can hold all joints where they are',
     'plot': 'a figure of the arm going through the tensions of a CSV file',
 }
 """Verb → what it does; the module ``arm_...`` has the rest"""
@@ -20,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     verbs = parser.add_subparsers(dest='arm_verb', metavar='VERB', required=True)
     for name, description in ARM_VERBS.items():
         subparser = verbs.add_parser(name, help=description, description=description)
-        module = import_module(f'{__package__}.arm_{name}')
+        module = import_module(f'{__package__}.arm_{name.replace("-", "_")}')
         module.add_arguments(subparser)
         subparser.set_defaults(run_arm=module.run)
 

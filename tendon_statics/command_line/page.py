@@ -83,6 +83,11 @@ def write_page(
         temporary.write_text(page, encoding='utf-8')
 
 
+def paragraph(text: str) -> str:
+    """Return a paragraph of plain text."""
+    return f'<p>{escape(text)}</p>'
+
+
 def warning(text: str) -> str:
     """Return a paragraph that stands out, of plain text."""
     return f'<p class="warning">{escape(text)}</p>'

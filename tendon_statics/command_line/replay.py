@@ -56,13 +56,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_estimation_options(parser: argparse.ArgumentParser) -> None:
-    """Add what the model is to do with each sample."""
+def add_estimation_options(parser: argparse.ArgumentParser, default: str = ESTIMATIONS[0]) -> None:
+    """Add what the model is to do with each sample, and by default."""
     parser.add_argument(
         '--estimation',
         choices=ESTIMATIONS,
         help='each sample by itself, or with memory: believing each sample (tracking), or taking '
-        f'it for noisy (filtering); default: that of the design file, or {ESTIMATIONS[0]}',
+        f'it for noisy (filtering); default: that of the design file, or {default}',
     )
     add_initial_bend_angle_option(parser)
 
@@ -114,9 +114,13 @@ def replay_from(
     design: JointDesign,
     recording: Recording,
     progress: Progress = with_progress,
+    default: str = ESTIMATIONS[0],
 ) -> Replay:
-    """Replay a recording as the options and the unit's file ask for, with a design of it."""
-    estimation = options.estimation or unit.get('estimation') or ESTIMATIONS[0]
+    """Replay a recording as the options and the unit's file ask for, with a design of it.
+
+    Where they do not say how each sample is estimated, it is done as `default` says.
+    """
+    estimation = options.estimation or unit.get('estimation') or default
     if estimation == 'filtering' and tension_stddev_of(options, unit) is None:
         raise UsageError(
             'estimation is filtering, which needs the noise of the load cells: give '

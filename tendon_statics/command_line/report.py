@@ -34,22 +34,38 @@ from .calibration_text import (
 from .figure_calibration import draw_calibration
 from .figure_recording import draw_replay
 from .figures import svg_of
-from .options import add_design_option, add_load_options, design_name, say_written
+from .options import (
+    add_design_option,
+    add_load_options,
+    design_name,
+    say_written,
+    tension_stddev_from,
+    tension_stddev_of,
+)
 from .origin import origin_facts
-from .page import fact_table, table, warning, write_page
+from .page import fact_table, paragraph, table, warning, write_page
 from .recorded_tip_force import recorded_tip_forces, tip_force_facts
 from .recording_options import add_recording_options, report_damage, unit_and_recording
-from .replay import add_estimation_options, replay_from
+from .replay import add_estimation_options, initial_bend_angle_from, replay_from
 from .replay_text import replay_facts
+from .report_text import (
+    DISTANCES,
+    ESTIMATION_DEFAULT,
+    FREEDOM,
+    default_estimation,
+    error_meaning,
+)
 from .tables import Facts
 from .tip_force_options import add_line_options
+
+FITTED = 'the fitted design'
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the verb takes."""
     add_recording_options(parser)
     add_design_option(parser)
-    add_estimation_options(parser)
+    add_estimation_options(parser, ESTIMATION_DEFAULT)
     add_load_options(parser)
     add_calibration_options(parser)
     add_line_options(parser, required=False)
@@ -77,7 +93,7 @@ def run(options: argparse.Namespace) -> int:
         note = f'tendon-statics: {path} has no calibration: {error}'
     else:
         calibration = fit.calibration
-        design, of = calibration.design or start, 'the fitted design'
+        design, of = calibration.design or start, FITTED
         recording = corrected(recording, calibration.cells or AS_MEASURED)
         if calibration.design is not None:
             unit = unit.with_uncertainty(calibration.uncertainty)
@@ -85,14 +101,9 @@ def run(options: argparse.Namespace) -> int:
             of = f'{design_name(options)}, since the fit does not determine a design'
         facts = [('start', design_name(options)), *assumed_facts(options, recording)]
         fitted = _calibration_part(fit, recording, facts)
-    replayed = replay_from(options, unit, design, recording)
     parts += [
         f'<h2>Recording, with {escape(of)}</h2>',
-        fact_table(replay_facts(replayed, unit, design)),
-        svg_of(
-            lambda drawing: draw_replay(drawing, design, replayed),
-            figure_recording.SIZE,
-        ),
+        *_replay_part(options, unit, design, recording, is_fitted=of == FITTED),
         *_tip_force_part(options, unit, design, recording),
         *fitted,
         '<h2>Design</h2>',
@@ -105,6 +116,32 @@ def run(options: argparse.Namespace) -> int:
     if note:
         print(note, file=sys.stderr)
     return report_damage(recording)
+
+
+def _replay_part(
+    options: argparse.Namespace,
+    unit: Unit,
+    design: JointDesign,
+    recording: Recording,
+    *,
+    is_fitted: bool,
+) -> list[str]:
+    """What the model says of the recording, how it was asked, and what the error means."""
+    default, why = default_estimation(recording, tension_stddev_of(options, unit))
+    replayed = replay_from(options, unit, design, recording, default=default)
+    parts = [fact_table(replay_facts(replayed, unit, design))]
+    if options.estimation is None and unit.get('estimation') is None:
+        parts.append(
+            paragraph(f'Estimation is {default}, since {why}; --estimation says otherwise.')
+        )
+    if replayed.error is not None:
+        start, stddev = initial_bend_angle_from(options, unit), tension_stddev_from(options, unit)
+        parts.append(paragraph(error_meaning(replayed, start, stddev, is_fitted=is_fitted)))
+    drawn = svg_of(
+        lambda drawing: draw_replay(drawing, design, replayed),
+        figure_recording.SIZE,
+    )
+    return [*parts, drawn]
 
 
 def _tip_force_part(
@@ -136,6 +173,7 @@ def _calibration_part(fit: Fitted, recording: Recording, facts: Facts) -> list[s
         '<h2>Calibration</h2>',
         *map(warning, calibration.warnings),
         fact_table([*facts, *calibration_facts(calibration, recording.name)]),
+        *map(paragraph, (DISTANCES, FREEDOM)),
     ]
     if comparison is not None:
         parts += [table(LAW_TITLES, law_rows(comparison)), fact_table(law_facts(comparison))]

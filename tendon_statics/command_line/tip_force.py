@@ -85,8 +85,8 @@ def run(options: argparse.Namespace) -> None:
             {
                 'contact_law': unit.design.contact_law,
                 'load': load_dict(load),
-                'exact_intervals': _finite_ends(exact),
-                'intervals': _finite_ends(noisy),
+                'exact_intervals': finite_ends(exact.intervals),
+                'intervals': finite_ends(noisy.intervals),
                 'level': noisy.level,
                 'probability_free': noisy.probability_free,
                 'at_limit': noisy.at_limit,
@@ -110,10 +110,13 @@ def run(options: argparse.Namespace) -> None:
     print(fact_lines(facts))
 
 
-def intervals_text(intervals: list[tuple[float, float]]) -> str:
+NOTHING = 'no force: the model does not explain this state'
+
+
+def intervals_text(intervals: list[tuple[float, float]], nothing: str = NOTHING) -> str:
     """Say intervals of forces as a person reads them."""
     if not intervals:
-        return 'no force: the model does not explain this state'
+        return nothing
     return ' or '.join(_interval_text(low, high) for low, high in intervals)
 
 
@@ -127,11 +130,9 @@ def _interval_text(low: float, high: float) -> str:
     return f'{low:+.4f} N' if low == high else f'{low:+.4f} to {high:+.4f} N'
 
 
-def _finite_ends(found: TipForce) -> list[list[float | None]]:
-    """Return the intervals ready for JSON, with null for an infinite end."""
-    return [
-        [end if math.isfinite(end) else None for end in interval] for interval in found.intervals
-    ]
+def finite_ends(intervals: list[tuple[float, float]]) -> list[list[float | None]]:
+    """Return intervals ready for JSON, with null for an infinite end."""
+    return [[end if math.isfinite(end) else None for end in interval] for interval in intervals]
 
 
 def _friction_text(options: argparse.Namespace) -> str:

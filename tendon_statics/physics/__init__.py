@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from .arm import (
         Arm,
         ArmState,
+        ArmTipForce,
         ArmTracker,
         ArmUnit,
         Cable,
@@ -48,6 +49,7 @@ if TYPE_CHECKING:
         arm_margins,
         arm_slip_order,
         arm_tensions_for,
+        arm_tip_force,
     )
     from .batch import EquilibriumBatch, solve_batch
     from .calibration import Calibration, LawComparison, calibrate, compare_laws
@@ -59,6 +61,7 @@ __all__ = [
     'Arm',
     'ArmError',
     'ArmState',
+    'ArmTipForce',
     'ArmTracker',
     'ArmUnit',
     'BendAngleError',
@@ -96,6 +99,7 @@ __all__ = [
     'arm_margins',
     'arm_slip_order',
     'arm_tensions_for',
+    'arm_tip_force',
     'calibrate',
     'compare_laws',
     'contact_coefficients',
@@ -116,6 +120,7 @@ __all__ = [
 _NEEDING_NUMPY = {
     'Arm': '.arm',
     'ArmState': '.arm',
+    'ArmTipForce': '.arm',
     'ArmTracker': '.arm',
     'ArmUnit': '.arm',
     'Cable': '.arm',
@@ -129,6 +134,7 @@ _NEEDING_NUMPY = {
     'arm_margins': '.arm',
     'arm_slip_order': '.arm',
     'arm_tensions_for': '.arm',
+    'arm_tip_force': '.arm',
     'calibrate': '.calibration',
     'compare_laws': '.calibration',
     'solve_batch': '.batch',

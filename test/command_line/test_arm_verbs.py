@@ -9,7 +9,7 @@ import pytest
 from make_docs import ROOT
 from programs import assert_refused, run, run_installed
 
-from tendon_statics import ArmTracker, arm_margins, load_arm
+from tendon_statics import ArmTracker, Load, arm_margins, arm_tip_force, load_arm
 
 FILE = ROOT / 'config/arm.yaml'
 TABLE = ROOT / 'config/arm_tensions.csv'
@@ -50,8 +50,6 @@ def test_margins_are_those_of_the_library_under_the_load_that_is_said():
         -0.1,
     )
     done = run('arm', 'margins', FILE, '--tensions', *TENSIONS, *options, '--format', 'json')
-    from tendon_statics import Load
-
     angles = [math.radians(degrees) for degrees in (5.0, 0.0, 0.0, -5.0, 0.0)]
     expected = arm_margins(ARM, angles, EVEN, Load.tilted(math.radians(20.0), (0.1, -0.1)))
     assert json.loads(done.stdout)['slip_margins'] == list(expected)
@@ -61,6 +59,36 @@ def test_margins_say_in_words_what_slips():
     text = run('arm', 'margins', FILE, '--tensions', *TENSIONS).stdout
     assert text.count('held') == 3
     assert text.count('slips to s') == 2
+
+
+PUSHED = ('tip-force', FILE, '--tensions', *TENSIONS, '--direction', 1, 0)
+
+
+def test_tip_force_prints_the_set_of_the_library():
+    options = ('--bend-angles-deg', 5, 0, 0, 0, 30, '--at-stop', 5, '--tip-force', 0.01, 0)
+    found = json.loads(run('arm', *PUSHED, *options, '--format', 'json').stdout)
+    angles = [math.radians(degrees) for degrees in (5.0, 0.0, 0.0, 0.0, 30.0)]
+    expected = arm_tip_force(
+        *(ARM, EVEN),
+        bend_angles=angles,
+        direction=(1.0, 0.0),
+        load=Load(tip_force=(0.01, 0.0)),
+        at_stop=[5],
+    )
+    assert found['intervals'] == [list(one) for one in expected.intervals]
+    assert found['bounding_joints'] == [list(one) for one in expected.bounding_joints]
+    assert len(found['joint_intervals']) == 5
+    along = ('tip-force', FILE, '--tensions', *TENSIONS, '--direction', 0, -1)
+    ray = json.loads(run('arm', *along, '--format', 'json').stdout)
+    assert ray['intervals'][0][1] is ray['bounding_joints'][0][1] is None
+
+
+def test_tip_force_says_which_joint_bounds_the_set_where():
+    text = run('arm', *PUSHED[:-2], 0, -1).stdout
+    assert 'explained by  any force from' in text
+    assert 'bounded by    joint 5 below\n' in text
+    angles = ('--bend-angles-deg', 30, 30, 30, -30, -30)
+    assert 'no force: the model does not explain this state' in run('arm', *PUSHED, *angles).stdout
 
 
 def test_order_and_invert_print_what_they_find():
@@ -93,6 +121,9 @@ def test_plot_draws_the_arm(tmp_path, ending):
         (['track', FILE, 'none.csv'], 'none.csv: it cannot be read'),
         (['invert', FILE, '--joint', 9, *RANGE], 'joints 1 to 5'),
         (['invert', FILE, '--joint', 1, *RANGE], 'slips before'),
+        ([*PUSHED[:-2], 1, 1], 'a unit vector is needed'),
+        ([*PUSHED[:-2], 0, 1, 0], 'out of the plane of bending'),
+        ([*PUSHED, '--at-stop', 6], 'joints 1 to 5'),
         (['plot', FILE, TABLE, '--output', 'arm.txt'], 'arm.txt: a figure is written to'),
     ],
 )

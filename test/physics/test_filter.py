@@ -173,16 +173,14 @@ def test_pressure_comes_with_its_deviation():
 @pytest.mark.parametrize(('design', 'pair'), [(PRELIMINARY, (1.0, 3.0)), (HANGING, (3.0, 5.3))])
 def test_the_deviation_of_the_pressure_is_that_of_its_errors(design, pair):
     """At a stop and at rest, where the sum of the tensions tells it."""
-    random = np.random.default_rng(1)
     scores = []
-    for _ in range(some_of(40)):
+    for seed in range(some_of(40)):
         found = StickSlipFilter(design, tension_stddev=NOISE)
-        noisy = random.normal(pair, NOISE, (150, 2)).tolist()
-        for state in (fed(found, noisy)[-1], found.committed):
+        for state in (fed(found, [pair] * 150, seed=seed)[-1], found.committed):
             truth = StickSlipTracker(design, state.bend_angle).update(*pair).pressure
             scores.append((state.pressure - truth) / state.pressure_stddev)
-    assert np.mean(np.abs(scores) < 2.0) > 0.85
-    assert np.std(scores) > 0.1
+    assert np.mean(np.abs(scores) < 2.0) >= 0.9
+    assert np.std(scores) > 0.3
 
 
 def test_bad_input_changes_nothing():

@@ -62,6 +62,15 @@ class BruteArm:
 
     def moment_and_capacity(self, joint: int, load: Load, angles: list[float], pulls):
         """M of one joint, and its K to the side of M, in N m."""
+        moment, total, axial, across = self.at_joint(joint, load, angles, pulls)
+        design = self.arm.designs[joint]
+        return moment, self.capacity(design, total, axial, across if moment > 0.0 else -across)
+
+    def at_joint(self, joint: int, load: Load, angles: list[float], pulls, push=(0.0, 0.0)):
+        """M of one joint in N m, and its T, P_a and P_t in N.
+
+        `push` is one more force at the tip, of floats or arrays.
+        """
         units = self.arm.units
         gravity_x, _, gravity_z = load.gravity_direction
         # Forces on all that is beyond the joint, and where they act.
@@ -79,7 +88,7 @@ class BruteArm:
                 place = x + lever * axis_x, z + lever * axis_z
                 loads.append((weight * gravity_x, weight * gravity_z, *place))
             x, z = x + unit.length * axis_x, z + unit.length * axis_z
-        loads.append((*load.tip_force, x, z))
+        loads += [(*load.tip_force, x, z), (*push, x, z)]
         design = units[joint].design
         r = design.ball_radius
         moment, total = -design.stiffness * angles[joint], 0.0
@@ -94,7 +103,7 @@ class BruteArm:
             moment += (at_z - centre_z) * load_x - (at_x - centre_x) * load_z
             force_x, force_z = force_x + load_x, force_z + load_z
         axial, across = -force_x * own_x - force_z * own_z, force_x * own_z - force_z * own_x
-        return moment, self.capacity(design, total, axial, across if moment > 0.0 else -across)
+        return moment, total, axial, across
 
     @staticmethod
     def capacity(design: JointDesign, total: float, axial: float, ahead: float) -> float:

@@ -1,4 +1,4 @@
-"""Units in series: an arm, where its joints are and which of them slip."""
+"""Units in series: an arm, where its joints are, which of them slip, what pushes."""
 
 from .arm import Arm, ArmUnit, Cable
 from .inverse import arm_tensions_for
@@ -6,11 +6,13 @@ from .joints import arm_margins
 from .order import JointSlip, arm_slip_order
 from .shape import TipPose
 from .state import ArmState
+from .tip_force import ArmTipForce, arm_tip_force
 from .tracker import ArmTracker
 
 __all__ = [
     'Arm',
     'ArmState',
+    'ArmTipForce',
     'ArmTracker',
     'ArmUnit',
     'Cable',
@@ -19,4 +21,5 @@ __all__ = [
     'arm_margins',
     'arm_slip_order',
     'arm_tensions_for',
+    'arm_tip_force',
 ]

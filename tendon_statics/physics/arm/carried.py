@@ -66,27 +66,8 @@ class Carried:
 
     def frozen(self, angles: list[float]) -> list[LoadedJoint]:
         """Return each joint as a single one, while all others stay at their angles in rad."""
-        turns, turn = [], 1.0 + 0.0j
-        tilt = 0.0
-        for angle in angles:
-            turns.append(turn)
-            tilt += angle
-            turn = cmath.rect(1.0, tilt)
-        found, beyond = [], 0.0j
-        after = turn
-        last = len(angles) - 1
-        for index in range(last, -1, -1):
-            own, before = self.dead[index], turns[index]
-            force = complex(own.force_x, own.force_z) * before
-            moment = self.turning[index] * before
-            if index < last:
-                moment += beyond * cmath.rect(1.0, -angles[index])
-            beyond += self.turning[index] * after
-            after = before
-            dead = DeadLoad(force.real, force.imag, moment.real, moment.imag)
-            found.append(LoadedJoint.of(self.arm.designs[index], dead))
-        found.reverse()
-        return found
+        loads = frozen_loads(self.dead, angles)
+        return [LoadedJoint.of(*pair) for pair in zip(self.arm.designs, loads, strict=True)]
 
     def excess(self, index: int, pair: Tensions) -> float:
         """T − |P| in N of one joint, with all its digits.
@@ -123,3 +104,36 @@ class Carried:
             return float(dead.size)
         reach = sum(self.arm.stops[: index + 1])
         return max(dead.largest_pull(reach), NEGLIGIBLE_PULL * float(dead.size))
+
+
+def frozen_loads(dead: list[DeadLoad], angles: list[float]) -> list[DeadLoad]:
+    """Return the dead load of each joint in its own frame, that of the unit before it.
+
+    Parameters
+    ----------
+    dead : list of DeadLoad
+        P_i and c_i, as `Carried` has them.
+    angles : list of float
+        Bend angles in rad, at which all joints stay.
+    """
+    turns, turn = [], 1.0 + 0.0j
+    tilt = 0.0
+    for angle in angles:
+        turns.append(turn)
+        tilt += angle
+        turn = cmath.rect(1.0, tilt)
+    found, beyond = [], 0.0j
+    after = turn
+    last = len(angles) - 1
+    for index in range(last, -1, -1):
+        own, before = dead[index], turns[index]
+        turning = complex(own.moment_x, own.moment_z)
+        force = complex(own.force_x, own.force_z) * before
+        moment = turning * before
+        if index < last:
+            moment += beyond * cmath.rect(1.0, -angles[index])
+        beyond += turning * after
+        after = before
+        found.append(DeadLoad(force.real, force.imag, moment.real, moment.imag))
+    found.reverse()
+    return found

@@ -11,7 +11,7 @@ from ..loaded_joint import LoadedJoint
 from ..slip import Probe, Slip
 from ..tensions import Tensions
 from .arm import Arm
-from .cables import crossings, pair_at, slack_joint, transmitted
+from .cables import AtJoints, crossings, pair_at, slack_joint, transmitted
 from .carried import Carried
 
 Driven = tuple[Slip, Probe]
@@ -48,17 +48,33 @@ def arm_margins(
     """
     angles = check_bend_angles(arm, bend_angles)
     at_base = arm.check_tensions(tensions)
-    crossing, carried = crossings(arm), Carried(arm, load)
-    at_joints = transmitted(arm, at_base, angles, None)
+    carried = Carried(arm, load)
+    pairs = taut_pairs(arm, transmitted(arm, at_base, angles, None))
+    driven = drive(carried, carried.frozen(angles), angles, pairs, [1.0] * len(angles))
+    return tuple(slip.margin_at(probe) for slip, probe in driven)
+
+
+def taut_pairs(arm: Arm, at_joints: AtJoints) -> list[Tensions]:
+    """Return the pair of tensions in N that pulls and turns each joint.
+
+    Parameters
+    ----------
+    at_joints : list of list of float
+        As `transmitted` has them.
+
+    Raises
+    ------
+    TensionError
+        If a joint has no tension on one side.
+    """
+    crossing = crossings(arm)
     slack = slack_joint(crossing, at_joints)
     if slack is not None:
         raise TensionError(
             f'joint {slack + 1} is slack: no cable that crosses it has any tension on one side, '
             'which is outside the model'
         )
-    pairs = [pair_at(*both) for both in zip(crossing, at_joints, strict=True)]
-    driven = drive(carried, carried.frozen(angles), angles, pairs, [1.0] * len(angles))
-    return tuple(slip.margin_at(probe) for slip, probe in driven)
+    return [pair_at(*both) for both in zip(crossing, at_joints, strict=True)]
 
 
 def drive(

@@ -1,0 +1,84 @@
+"""``tendon-statics arm tip-force``: what pushes at the tip, as far as all joints tell."""
+
+from __future__ import annotations
+
+import argparse
+import math
+
+from ..physics import ArmTipForce, arm_tip_force
+from .arm_options import add_arm_options, add_tensions_option, arm_from, tensions_from
+from .options import add_format_option, finite, print_json
+from .tables import fact_lines, markdown_table
+from .tip_force import finite_ends, intervals_text
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the verb takes."""
+    add_arm_options(parser)
+    add_tensions_option(parser, '--tensions', 'the tensions at the base')
+    group = parser.add_argument_group(
+        'force at the tip', 'that is looked for; it adds to what the load has'
+    )
+    group.add_argument(
+        '--direction',
+        type=finite,
+        nargs='+',
+        required=True,
+        metavar=('X', 'Z'),
+        help='unit vector along which it acts on the end of the last unit, fixed in the frame of '
+        'the base: X towards cables s, Z along the first unit at zero bend',
+    )
+    group.add_argument(
+        '--at-stop',
+        type=int,
+        nargs='+',
+        default=(),
+        metavar='N',
+        help='joints, counted from 1 at the base, that lean on their stop, which carries what '
+        'friction does not',
+    )
+    add_format_option(parser)
+
+
+def run(options: argparse.Namespace) -> None:
+    """Print the intervals, which joints bound them, and those of each joint by itself."""
+    arm, angles, load = arm_from(options)
+    found = arm_tip_force(
+        *(arm, tensions_from(options.tensions)),
+        bend_angles=angles,
+        direction=options.direction,
+        load=load,
+        at_stop=options.at_stop,
+    )
+    if options.format == 'json':
+        print_json(
+            {
+                'intervals': finite_ends(found.intervals),
+                'bounding_joints': found.bounding_joints,
+                'joint_intervals': [finite_ends(one) for one in found.joint_intervals],
+            }
+        )
+        return
+    facts = [('explained by', intervals_text(found.intervals))]
+    facts += [('bounded by', text) for text in _bounds(found)]
+    print(fact_lines(facts))
+    rows = [
+        [str(number), f'{math.degrees(angle):.3f}', intervals_text(intervals, nothing='no force')]
+        for number, (angle, intervals) in enumerate(
+            zip(angles, found.joint_intervals, strict=True), start=1
+        )
+    ]
+    print('\n' + markdown_table(('joint:', 'bend angle [deg]:', 'explained by'), rows))
+
+
+def _bounds(found: ArmTipForce) -> list[str]:
+    """Say for each interval which joint bounds it where."""
+    texts = []
+    for joints in found.bounding_joints:
+        ends = [
+            f'joint {joint} {where}'
+            for joint, where in zip(joints, ('below', 'above'), strict=True)
+            if joint is not None
+        ]
+        texts.append(', '.join(ends) or 'no joint')
+    return texts

@@ -1,0 +1,435 @@
+"""The forces at the tip of an arm that friction can hold: against brute force, and properties."""
+
+import dataclasses
+import math
+import random
+from collections import Counter
+from pathlib import Path
+from typing import NamedTuple
+
+import arm_brute
+import brute
+import numpy as np
+import pytest
+from designs import PRELIMINARY
+from thoroughness import some_of
+
+from tendon_statics import (
+    Arm,
+    ArmError,
+    ArmTracker,
+    ArmUnit,
+    BendAngleError,
+    Cable,
+    Load,
+    LoadError,
+    Regime,
+    TensionError,
+    arm_margins,
+    arm_tip_force,
+    load_arm,
+    tip_force,
+    tip_force_intervals,
+)
+
+CONFIG = Path(__file__).parents[2] / 'config'
+COUNT = 200
+GRID = np.linspace(-1.0, 1.0, 2001)[1:-1]
+EXACT = 1e-9
+
+
+class Pushed(NamedTuple):
+    """An arm at some angles, and a line along which it is pushed."""
+
+    arm: Arm
+    load: Load
+    tensions: dict
+    angles: list
+    direction: np.ndarray
+
+    @property
+    def scale(self):
+        """Of the forces, in N."""
+        return sum(np.max(one) for one in self.tensions.values())
+
+    def found(self, **changed):
+        asked = {'bend_angles': self.angles, 'load': self.load, **changed}
+        tensions = asked.pop('tensions', self.tensions)
+        direction = tuple(asked.pop('direction', self.direction))
+        return arm_tip_force(self.arm, tensions, direction=direction, **asked)
+
+
+def random_pushed(draw, friction=True):
+    arm = arm_brute.random_arm(draw, friction=friction)
+    load = arm_brute.random_load(draw)
+    tensions = arm_brute.random_pull(draw, arm, load)
+    for pair in range(len(arm.cables) // 2):  # half of them nearly even, which more joints hold
+        if draw.random() < 0.7:
+            total = tensions[f'l{pair}'] + tensions[f's{pair}']
+            share = draw.uniform(0.45, 0.55)
+            tensions[f'l{pair}'], tensions[f's{pair}'] = total * share, total * (1.0 - share)
+    bent = draw.choice((1.0, 0.3, 0.03))
+    angles = [bent * draw.uniform(-stop, stop) for stop in arm.stops]
+    # Anywhere, across the base, along the last unit.
+    of = draw.choice((draw.uniform(-math.pi, math.pi), 0.5 * math.pi, sum(angles)))
+    return Pushed(arm, load, tensions, angles, np.array([math.sin(of), math.cos(of)]))
+
+
+@pytest.fixture(scope='module')
+def pushed():
+    """Random arms at random angles, and lines along which they are pushed."""
+    draw = random.Random(1818)
+    return [random_pushed(draw) for _ in range(some_of(COUNT))]
+
+
+def joints_held(case, force):
+    """Whether friction can hold each joint under forces in N, from vectors: a row for each."""
+    reference = arm_brute.BruteArm(case.arm, case.angles)
+    pulls = reference.pulls(case.tensions, case.angles)
+    push = force * case.direction[0], force * case.direction[1]
+    found = []
+    for joint, design in enumerate(case.arm.designs):
+        moment, *state = reference.at_joint(joint, case.load, case.angles, pulls, push)
+        total, axial, across = state
+        with np.errstate(all='ignore'):
+            is_held = brute.seats(design, total, axial, across)
+            for side in (1.0, -1.0):
+                capacity = brute.capacity_under(design, total, axial, side * across)
+                is_held &= side * moment <= capacity
+        found.append(is_held)
+    return np.array(found)
+
+
+def inside(intervals, force, slack=0.0):
+    return any(low - slack <= force <= high + slack for low, high in intervals)
+
+
+def finite_ends(intervals):
+    return [end for interval in intervals for end in interval if math.isfinite(end)]
+
+
+def bisected(holds, low, high):
+    """Where a condition changes between two forces."""
+    at_low = holds(low)
+    while high - low > 1e-13 * max(1.0, abs(high)):
+        middle = 0.5 * (low + high)
+        if not low < middle < high:
+            break
+        low, high = (middle, high) if holds(middle) == at_low else (low, middle)
+    return low
+
+
+def test_the_sample_holds_no_and_one_interval_and_rays_and_ends_of_different_joints(pushed):
+    seen, bounding = Counter(), Counter()
+    for case in pushed:
+        found = case.found()
+        seen[min(len(found.intervals), 2)] += 1
+        seen['ray'] += any(math.isinf(end) for interval in found.intervals for end in interval)
+        for joints in found.bounding_joints:
+            bounding.update(joints)
+            seen['two joints'] += len({*joints} - {None}) == 2
+    assert all(seen[kind] for kind in (0, 1, 'ray', 'two joints')), seen
+    assert len(bounding) > 3, bounding
+
+
+def test_every_end_is_where_sums_of_forces_and_levers_have_one(pushed):
+    for case in pushed:
+        found = case.found()
+        grid = case.scale * GRID / (1.0 - GRID**2)
+        rows = joints_held(case, grid)
+        for held, intervals in zip(
+            [*rows, rows.all(axis=0)], [*found.joint_intervals, found.intervals], strict=True
+        ):
+            wrong = held != np.any([(low <= grid) & (grid <= high) for low, high in intervals], 0)
+            for end in finite_ends(intervals):
+                wrong &= abs(grid - end) > 1e-6 * case.scale
+            assert not wrong.any(), (case, grid[wrong], found)
+        held = rows.all(axis=0)
+
+        def holds(force, case=case):
+            return bool(joints_held(case, force).all())
+
+        for index in np.flatnonzero(held[:-1] != held[1:]):
+            end = bisected(holds, *grid[index : index + 2])
+            off = min(abs(end - one) for one in finite_ends(found.intervals))
+            assert off < EXACT * max(1.0, abs(end)), (case, end, found)
+
+
+def test_every_end_is_where_the_margins_of_the_joints_have_one():
+    draw = random.Random(1820)
+    compared = 0
+    for _ in range(some_of(40)):
+        case = random_pushed(draw)
+        found = case.found()
+
+        def margins(force, case=case):
+            x, z = force * case.direction + case.load.tip_force
+            load = dataclasses.replace(case.load, tip_force=(float(x), float(z)))
+            try:
+                return arm_margins(case.arm, case.angles, case.tensions, load)
+            except TensionError:  # which asks for a seat wherever the arm may be
+                return None
+
+        def holds(force, margins=margins):
+            return max(map(abs, margins(force) or (2.0,))) <= 1.0
+
+        for force in np.linspace(-case.scale, case.scale, 40).tolist():
+            if (of_joints := margins(force)) is not None:
+                for margin, intervals in zip(of_joints, found.joint_intervals, strict=True):
+                    assert inside(intervals, force) == (abs(margin) <= 1.0)
+                compared += 1
+        for ends, joints in zip(found.intervals, found.bounding_joints, strict=True):
+            for end, joint in zip(ends, joints, strict=True):
+                if joint is None or margins(end) is None:
+                    continue
+                assert abs(margins(end)[joint - 1]) == pytest.approx(1.0, abs=1e-8)
+                step = 1e-6 * max(1.0, abs(end))
+                if holds(end - step) != holds(end + step):
+                    exact = bisected(holds, end - step, end + step)
+                    assert end == pytest.approx(exact, rel=EXACT, abs=EXACT)
+    assert compared > 10 * some_of(40)
+
+
+@pytest.mark.parametrize('at_stop', [(), (1,)])
+def test_an_arm_of_one_unit_is_the_single_unit_to_the_last_bit(at_stop):
+    draw = random.Random(1821)
+    for _ in range(some_of(100)):
+        case = brute.random_case(draw)
+        angle = draw.uniform(-1.0, 1.0) * case.design.max_bend_angle
+        of, length = draw.uniform(-math.pi, math.pi), draw.uniform(0.0, 0.06)
+        load = dataclasses.replace(case.load, tip_distance=length)
+        line = {'direction': (math.sin(of), math.cos(of)), 'load': load}
+        arm = Arm([ArmUnit(case.design, length)], [Cable('l', 'l', 1), Cable('s', 's', 1)])
+        tensions = {'l': case.tension_l, 's': case.tension_s}
+        found = arm_tip_force(arm, tensions, bend_angles=[angle], at_stop=at_stop, **line)
+        single = tip_force(
+            *(case.design, case.tension_l, case.tension_s),
+            **{'bend_angle': angle, 'distance': length, 'at_stop': bool(at_stop), **line},
+        )
+        assert found.intervals == found.joint_intervals[0] == single.intervals
+        assert found.bounding_joints == [
+            tuple(1 if math.isfinite(end) else None for end in interval)
+            for interval in single.intervals
+        ]
+
+
+def test_each_joint_can_only_narrow_the_set(pushed):
+    for case in pushed:
+        found = case.found()
+        for (low, high), joints in zip(found.intervals, found.bounding_joints, strict=True):
+            assert low <= high
+            for one in found.joint_intervals:
+                assert any(a - EXACT <= low and high <= b + EXACT for a, b in one)
+            for end, joint in zip((low, high), joints, strict=True):
+                assert (joint is None) == math.isinf(end)
+                own = [] if joint is None else found.joint_intervals[joint - 1]
+                assert joint is None or end in finite_ends(own) or low == high
+
+
+def test_what_is_below_a_joint_does_not_change_what_it_tells():
+    """The arm without its first unit, in that one's frame, has the sets of the others."""
+    draw = random.Random(1822)
+    for _ in range(some_of(60)):
+        case = random_pushed(draw, friction=False)
+        if len(case.arm.units) < 2:
+            continue
+        turn = case.angles[0]
+        cables = [
+            dataclasses.replace(cable, last_unit=cable.last_unit - 1)
+            for cable in case.arm.cables
+            if cable.last_unit > 1
+        ]
+
+        def turned(x, z, turn=turn):
+            cosine, sine = math.cos(turn), math.sin(turn)
+            return x * cosine - z * sine, x * sine + z * cosine
+
+        gravity_x, _, gravity_z = case.load.gravity_direction
+        gravity_x, gravity_z = turned(gravity_x, gravity_z)
+        rest = arm_tip_force(
+            Arm(case.arm.units[1:], cables),
+            {cable.name: case.tensions[cable.name] for cable in cables},
+            bend_angles=case.angles[1:],
+            direction=turned(*case.direction),
+            load=Load((gravity_x, 0.0, gravity_z), turned(*case.load.tip_force)),
+        )
+        for one, other in zip(case.found().joint_intervals[1:], rest.joint_intervals, strict=True):
+            assert np.allclose(one, other, rtol=1e-8, atol=1e-9)
+
+
+def test_the_reverse_direction_has_the_mirrored_set(pushed):
+    for case in pushed:
+        found, other = case.found(), case.found(direction=-case.direction)
+        mirrored = [(-high, -low) for low, high in reversed(other.intervals)]
+        assert np.allclose(found.intervals, mirrored, rtol=1e-12, atol=1e-12)
+
+
+def test_the_force_asked_for_adds_to_a_known_one(pushed):
+    for case in pushed:
+        bare = case.found(load=dataclasses.replace(case.load, tip_force=(0.0, 0.0)))
+        known = 0.1 * case.direction
+        more = case.found(load=dataclasses.replace(case.load, tip_force=tuple(known)))
+        for one, other in zip(bare.joint_intervals, more.joint_intervals, strict=True):
+            moved = [(low - 0.1, high - 0.1) for low, high in one]
+            assert np.allclose(moved, other, rtol=1e-7, atol=1e-7)
+
+
+def test_within_the_set_the_arm_stays_where_it_is_and_beyond_an_end_the_joint_named_slips():
+    """Asked of a tracker, whose cables remember how their friction was used."""
+    draw = random.Random(1823)
+    asked = Counter()
+    for _ in range(some_of(60)):
+        arm = arm_brute.random_arm(draw)
+        base = Load.tilted(draw.choice((0.0, draw.uniform(-0.5, 0.5))))
+        tracker = ArmTracker(arm)
+        for _ in range(3):
+            tensions = arm_brute.random_pull(draw, arm, base)
+            try:
+                state = tracker.update(tensions, base)
+            except TensionError:
+                break
+        else:
+            at_stop = [
+                number
+                for number, (angle, stop) in enumerate(
+                    zip(state.bend_angles, arm.stops, strict=True), start=1
+                )
+                if abs(angle) == stop
+            ]
+            of = draw.uniform(-math.pi, math.pi)
+            direction = math.sin(of), math.cos(of)
+            found = arm_tip_force(
+                *(arm, state.cable_tensions),
+                bend_angles=state.bend_angles,
+                direction=direction,
+                load=base,
+                at_stop=at_stop,
+            )
+            scale = sum(tensions.values())
+            assert inside(found.intervals, 0.0, 1e-7 * scale), (state, found)
+
+            def moved(force, tracker=tracker, tensions=tensions, base=base, direction=direction):
+                other = tracker.copy()
+                load = dataclasses.replace(
+                    base, tip_force=(force * direction[0], force * direction[1])
+                )
+                other.update(tensions, load)
+                before = tracker.bend_angles
+                return [
+                    i for i, angle in enumerate(other.bend_angles, 1) if angle != before[i - 1]
+                ]
+
+            for ends, joints in zip(found.intervals, found.bounding_joints, strict=True):
+                for end, joint, out in zip(ends, joints, (-1.0, 1.0), strict=True):
+                    if joint is None or ends[1] - ends[0] < 1e-3 * scale:
+                        continue
+                    try:
+                        assert not moved(end - out * 1e-5 * scale)
+                        slipping = moved(end + out * 1e-5 * scale)
+                    except TensionError:
+                        asked['unseated'] += 1
+                        continue
+                    assert joint in slipping, (found, end, joint, slipping)
+                    asked['slips'] += 1
+    assert asked['slips'] > some_of(40), asked
+
+
+def test_tensions_at_the_joints_are_those_at_the_base_where_cables_have_no_friction():
+    arm = load_arm(CONFIG / 'arm.yaml')
+    arm = dataclasses.replace(arm, cable_friction_coefficient=0.0)
+    at_base = {'l_mid': 1.0, 's_mid': 1.1, 'l_tip': 1.0, 's_tip': 1.3}
+    line = {'bend_angles': [0.1, 0.0, -0.1, 0.1, 0.0], 'direction': (1.0, 0.0)}
+    at_joints = {cable.name: (at_base[cable.name],) * cable.last_unit for cable in arm.cables}
+    expected = arm_tip_force(arm, at_base, **line)
+    assert arm_tip_force(arm, at_joints, **line) == expected
+    mixed = {**at_base, 's_tip': np.array(at_joints['s_tip'])}
+    assert arm_tip_force(arm, mixed, **line) == expected
+
+
+def test_a_joint_at_its_stop_narrows_the_set_on_one_side_only():
+    unit = ArmUnit(PRELIMINARY, 0.02)
+    arm = Arm([unit, unit], [Cable('l', 'l', 2), Cable('s', 's', 2)])
+    asked = {
+        'bend_angles': [PRELIMINARY.max_bend_angle, 0.0],
+        'direction': (1.0, 0.0),
+    }
+    free = arm_tip_force(arm, {'l': 1.0, 's': 1.0}, **asked)
+    leaning = arm_tip_force(arm, {'l': 1.0, 's': 1.0}, at_stop=[1], **asked)
+    ((low, high),), ((leaning_low, leaning_high),) = (
+        found.joint_intervals[0] for found in (free, leaning)
+    )
+    assert leaning_low == low
+    assert leaning_high > high
+    assert leaning.joint_intervals[1] == free.joint_intervals[1]
+
+
+UNIT = ArmUnit(PRELIMINARY, 0.02)
+ARM = Arm([UNIT, UNIT], [Cable('l', 'l', 2), Cable('s', 's', 2)])
+EVEN = {'l': 1.0, 's': 1.0}
+
+
+def test_joints_that_contradict_one_another_leave_no_force():
+    # The base is pulled far to one side, the tip to the other, which no one force explains.
+    arm = Arm(
+        [UNIT, UNIT],
+        [Cable('l1', 'l', 1), Cable('s1', 's', 1), Cable('l2', 'l', 2), Cable('s2', 's', 2)],
+    )
+    tensions = {'l1': 1.0, 's1': 20.0, 'l2': 3.0, 's2': 1.0}
+    found = arm_tip_force(arm, tensions, bend_angles=[0.0, 0.0], direction=(1.0, 0.0))
+    assert all(found.joint_intervals)
+    assert found.intervals == found.bounding_joints == []
+
+
+@pytest.mark.parametrize(
+    ('changed', 'error', 'reason'),
+    [
+        ({'direction': (0.0, 0.0)}, LoadError, 'length zero'),
+        ({'direction': (0.0, 1.0, 0.0)}, LoadError, 'out of the plane'),
+        ({'direction': (1.0, 1.0)}, LoadError, r'such as \(0.707107, 0.707107\)'),
+        ({'bend_angles': (0.1,)}, BendAngleError, 'has 2 joints'),
+        ({'bend_angles': (0.1, 0.6)}, BendAngleError, 'joint 2: bend_angle is 0.6'),
+        ({'tensions': {'l': 1.0}}, TensionError, 'cable s is missing'),
+        ({'tensions': {**EVEN, 't': 1.0}}, TensionError, "no cable 't'"),
+        ({'tensions': {**EVEN, 't': (1.0, 1.0)}}, TensionError, "no cable 't'"),
+        ({'tensions': {**EVEN, 's': 0.0}}, TensionError, 'joint 1 is slack'),
+        ({'tensions': {**EVEN, 's': (1.0, 0.0)}}, TensionError, 'joint 2 is slack'),
+        ({'tensions': {**EVEN, 's': (1.0,)}}, TensionError, 's has 1 tensions, but crosses 2'),
+        ({'tensions': {**EVEN, 's': (1.0, -1.0)}}, TensionError, 's is -1.0 N, allowed'),
+        ({'tensions': {**EVEN, 's': '1'}}, TensionError, "s is '1', which is not a number"),
+        ({'tensions': {**EVEN, 's': math.nan}}, TensionError, 's is nan'),
+        ({'load': Load(tip_force=(0.1, 0.0), tip_distance=0.01)}, LoadError, 'leave it out'),
+        ({'at_stop': [3]}, ArmError, 'joints 1 to 2'),
+    ],
+)
+def test_bad_input_is_refused_with_the_reason_in_one_line(changed, error, reason):
+    good = {'tensions': EVEN, 'bend_angles': (0.1, 0.0), 'direction': (1.0, 0.0)}
+    with pytest.raises(error, match=reason) as raised:
+        arm_tip_force(ARM, **{**good, **changed})
+    assert '\n' not in str(raised.value)
+
+
+def test_each_joint_that_slips_tells_the_force_as_an_end_of_its_set():
+    draw = random.Random(1824)
+    arm = load_arm(CONFIG / 'arm.yaml')
+    for _ in range(some_of(100)):
+        pull, force = draw.uniform(1.5, 1.7), draw.uniform(-0.01, 0.01)
+        load = Load(tip_force=(force, 0.0))
+        state = ArmTracker(arm).update({'l_mid': 1, 's_mid': 1, 'l_tip': 1, 's_tip': pull}, load)
+        assert state.regimes.count(Regime.SLIPPING) > 1
+        found = arm_tip_force(
+            *(arm, state.cable_tensions), bend_angles=state.bend_angles, direction=(1.0, 0.0)
+        )
+        assert inside(found.intervals, force, 1e-9)
+        for regime, intervals in zip(state.regimes, found.joint_intervals, strict=True):
+            off = min(abs(end - force) for end in finite_ends(intervals))
+            assert (off < 1e-9) == (regime is Regime.SLIPPING)
+
+
+def test_the_set_of_a_joint_next_to_the_tip_is_that_of_its_unit_alone():
+    """Where nothing that is bent lies before it."""
+    tensions = {'l': 1.0, 's': 1.9}
+    found = arm_tip_force(ARM, tensions, bend_angles=(0.0, 0.1), direction=(1.0, 0.0))
+    single = tip_force_intervals(
+        *(PRELIMINARY, 1.0, 1.9), bend_angle=0.1, direction=(1.0, 0.0), distance=0.02
+    )
+    assert found.joint_intervals[1] == single
