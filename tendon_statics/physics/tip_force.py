@@ -26,6 +26,16 @@ SIDES = {'s': 1.0, 'l': -1.0}
 """Cable to which a unit may slip → side"""
 
 
+NEAR_STOP = 4.0
+"""Deviations short of a stop within which a unit may lean on it. The set of forces is the wider
+if it does, so that is taken: the share of units that it is wrong for is below 1e-4"""
+
+
+def may_be_at_stop(design: JointDesign, bend_angle: float, stddev: float) -> bool:
+    """Return whether a unit at an angle in rad, with its deviation, may lean on a stop."""
+    return abs(bend_angle) + NEAR_STOP * stddev >= design.max_bend_angle
+
+
 class TipForce(NamedTuple):
     """What is known of the force at the tip, in N along its direction."""
 

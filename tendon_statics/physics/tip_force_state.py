@@ -13,7 +13,7 @@ from .errors import BendAngleError
 from .force_scores import NORMAL
 from .load import Load
 from .state import Equilibrium, Regime
-from .tip_force import TipForce, tip_force
+from .tip_force import TipForce, may_be_at_stop, tip_force
 
 SAME_ANGLE = 1e-9
 """rad within which two angles that are exact are the same"""
@@ -114,7 +114,7 @@ def tip_force_of_state(
             pair = state.tension_l, state.tension_s
             margin = slip_margin(design, *pair, state.bend_angle, state.load)
             slipping = 's' if margin > 0.0 else 'l'
-    at_stop = abs(angle) + reach >= design.max_bend_angle
+    at_stop = may_be_at_stop(design, angle, stddev + SAME_ANGLE)
     return tip_force(
         *(design, state.tension_l, state.tension_s),
         bend_angle=angle,

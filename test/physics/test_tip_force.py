@@ -356,6 +356,16 @@ def test_a_held_unit_has_a_set_with_nothing_in_it():
     assert found.intervals == tip_force_intervals(PRELIMINARY, 1.0, 1.9, bend_angle=0.1, **ACROSS)
 
 
+@pytest.mark.parametrize('short', [0.0, 2.5, 3.9])
+def test_a_free_tip_at_a_stop_stays_possible_when_the_angle_reads_short_of_it(short):
+    stddev = 0.005
+    state = StickSlipTracker(PRELIMINARY).update(1.0, 3.0)
+    assert state.regime is Regime.DRIVEN_TO_STOP
+    measured = state.bend_angle - short * stddev
+    known = {'bend_angle': measured, 'bend_angle_stddev': stddev, 'tension_stddev': 0.01}
+    assert tip_force_of_state(state, **known, **ACROSS).probability_free > 0.05
+
+
 def test_at_a_stop_the_force_is_known_to_one_side_only():
     state = StickSlipTracker(PRELIMINARY).update(1.0, 3.0)
     assert state.regime is Regime.DRIVEN_TO_STOP

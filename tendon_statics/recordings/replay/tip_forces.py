@@ -16,6 +16,7 @@ from ...estimation.settings import Settings
 from ...estimation.tip_force_watch import TipForceWatch
 from ...physics import BendAngleError, DesignUncertainty, Load, LoadError, TensionError, tip_force
 from ...physics.load import push_along
+from ...physics.tip_force import may_be_at_stop
 from ..errors import RecordingError
 from ..progress import Progress, unseen
 from ..recording import Floats, Recording
@@ -123,9 +124,8 @@ def tip_forces(
     for place in progress(places.tolist(), 'solving'):
         angle = float(recording.bend_angle[place])
         row = (math.nan, math.nan, math.nan, False)
-        beyond = abs(angle) - stop
-        if beyond <= BEYOND * bend_angle_stddev:  # never of a NaN
-            at_stop = beyond >= -2.0 * bend_angle_stddev
+        if abs(angle) - stop <= BEYOND * bend_angle_stddev:  # never of a NaN
+            at_stop = may_be_at_stop(design, angle, bend_angle_stddev)
             try:
                 found = tip_force(
                     *(design, *tensions[place]),
