@@ -156,7 +156,7 @@ def _solved(samples: Samples, loads: Load | list[Load], start: int) -> _Part:
             *np.full((len(_NUMBERS) - 5, len(part)), math.nan),
         ]
     )
-    return answers.regime_names, numbers, np.full(answers.regime.shape, True)
+    return answers.regime_names, numbers, np.isfinite(answers.bend_angle)
 
 
 def _followed(
@@ -177,11 +177,11 @@ def _followed(
             samples.faults[place] = error.reason.value
             regimes.append(INVALID)
             rows.append([math.nan] * len(_NUMBERS))
-            assured.append(not unit.remembers)
+            assured.append(False)
             continue
         regimes.append(estimate.regime.value)
         rows.append(_numbers(estimate))
-        assured.append(estimate.angle_assured or not unit.remembers)
+        assured.append(estimate.angle_assured)
     numbers = np.array(rows, dtype=float).reshape(-1, len(_NUMBERS)).T
     return np.array(regimes), numbers, np.array(assured)
 

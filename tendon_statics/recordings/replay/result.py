@@ -32,7 +32,8 @@ class Replay(NamedTuple):
     pressure_stddev: Floats
     slip_margin: Floats
     angle_assured: NDArray[np.bool_]
-    """False after what cannot vouch for a tracked unit, such as a slack cable, until a stop"""
+    """False where there is no angle, and after what cannot vouch for a unit that is remembered,
+    such as a slack cable, until a stop"""
     validity: NDArray[np.str_]
     """``valid``, or why a sample is not, in the node's words (`Reason`)"""
     confidence: float
