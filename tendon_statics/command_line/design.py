@@ -1,10 +1,12 @@
-"""``tendon-statics design``: check a design file and show what is in it."""
+"""``tendon-statics design``: check the file of a unit and show what is in it."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 
+from ..files.estimator_parameters import DESIGN, ESTIMATIONS
+from ..files.unit_settings import not_known
 from ..physics import design_fields
 from .options import add_design_option, unit_from
 from .tables import markdown_table
@@ -16,10 +18,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
-    """Print every parameter with its value, unit and range."""
+    """Print every parameter of the design with its value, unit and range; and what else is set."""
     unit = unit_from(options)
     design = unit.design
-    for warning in filter(None, (*unit.misspelt, unit.addressed)):
+    unknown = [
+        f'{name} is no parameter of the estimator, which ignores it'
+        for name in not_known(unit.parameters)
+        if not any(warning.startswith(f'{name} ') for warning in unit.misspelt)
+    ]
+    for warning in filter(None, (*unit.misspelt, *unknown, unit.addressed)):
         print(f'tendon-statics: {warning}', file=sys.stderr)
     print(
         markdown_table(
@@ -38,3 +45,13 @@ def run(options: argparse.Namespace) -> None:
             ],
         )
     )
+    others = {
+        name: value for name, value in unit.parameters.items() if not name.startswith(DESIGN)
+    }
+    if others:
+        print('\nbeside the design: ' + ', '.join(f'{name} {others[name]}' for name in others))
+    if options.design:
+        print(
+            f'\nThe file is sound: estimation {unit.get("estimation") or ESTIMATIONS[0]}, '
+            f'noise of {unit.settings.tension_stddev:g} N on each tension'
+        )

@@ -163,6 +163,19 @@ def test_help_names_every_verb():
         assert run(verb, '--help').returncode == 0
 
 
+def test_design_shows_what_else_is_set_and_names_what_is_ignored(tmp_path):
+    file = tmp_path / 'unit.yaml'
+    text = (ROOT / 'config/preliminary_design.yaml').read_text(encoding='utf-8')
+    values = ('estimation: filtering', 'tension_stddev: 0.02', 'colour: red', 'input_timout: 1.0')
+    more = ''.join(f'    {value}\n' for value in values)
+    file.write_text(text.replace('ros__parameters:\n', f'ros__parameters:\n{more}', 1))
+    done = run('design', '--design', file)
+    assert done.returncode == 0
+    assert 'The file is sound: estimation filtering, noise of 0.02 N' in done.stdout
+    assert 'colour is no parameter of the estimator, which ignores it' in done.stderr
+    assert 'is input_timeout meant?' in done.stderr
+
+
 def test_design_shows_every_value():
     shown = run('design').stdout
     for name, value in asdict(PRELIMINARY).items():
