@@ -1,6 +1,6 @@
 """How much is tried: all of it in CI, a part of it at the desk, where one waits.
 
-The profiles are hypothesis's own; `some_of` and `examples` scale with the one that is loaded.
+The profiles are hypothesis's own; the functions below scale with the one that is loaded.
 """
 
 from __future__ import annotations
@@ -21,6 +21,11 @@ settings.load_profile('thorough' if os.environ.get('CI') else 'quick')
 def some_of(count: int) -> int:
     """Return how many of `count` are tried: all in CI."""
     return count * settings().max_examples // WHOLE
+
+
+def few_of(count: int) -> int:
+    """Return how many of `count` simulations, which take long, are run: all in CI, or a tenth."""
+    return count if settings().max_examples >= WHOLE else max(1, count // 10)
 
 
 def examples(count: int) -> settings:
