@@ -254,7 +254,7 @@ def test_a_stack_of_the_design_itself_is_the_design(unit):
         tuple(names),
         tuple(tuple(1e-30 if one == other else 0.0 for other in names) for one in names),
     )
-    ramp = [(weak, weak * (1.0 + 0.01 * index)) for index in range(160)]
+    ramp = [(weak, weak * (1.0 + 0.02 * index)) for index in range(80)]
     back = [tensions[::-1] for tensions in ramp]
     runs = [
         fed(StickSlipFilter(design, tension_stddev=NOISE, **more), ramp + back)[-1]

@@ -210,7 +210,7 @@ def long_bag(tmp_path_factory):
 
     @functools.cache
     def written(plugin):
-        file = write_bag(tmp_path_factory.mktemp('long') / 'bag', session(30000), plugin)
+        file = write_bag(tmp_path_factory.mktemp('long') / 'bag', session(15000), plugin)
         return file, load_recording(file)
 
     return written
