@@ -6,6 +6,7 @@ The profiles are hypothesis's own; the functions below scale with the one that i
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 
 from hypothesis import settings
 
@@ -28,6 +29,6 @@ def few_of(count: int) -> int:
     return count if settings().max_examples >= WHOLE else max(1, count // 10)
 
 
-def examples(count: int) -> settings:
+def examples(count: int, how_many: Callable[[int], int] = some_of) -> settings:
     """Try so many examples of a property, in CI, and a part of them elsewhere."""
-    return settings(max_examples=some_of(count))
+    return settings(max_examples=how_many(count))
