@@ -11,6 +11,10 @@ import thoroughness  # noqa: F401  which chooses hypothesis's profile
 os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
 
 
+LISTENERS = {'listener', 'running', 'filtering'}
+"""Fixtures that listen to an estimator"""
+
+
 def pytest_xdist_auto_num_workers():
     """Two workers a core, since tests of the node mostly wait for one another's processes.
 
@@ -22,11 +26,7 @@ def pytest_xdist_auto_num_workers():
 def pytest_collection_modifyitems(items):
     """Mark the tests of the node: those that run a program, or listen to one."""
     for item in items:
-        if (
-            'Program' in vars(item.module)
-            or 'listener' in item.fixturenames
-            or 'running' in item.fixturenames
-        ):
+        if 'Program' in vars(item.module) or not LISTENERS.isdisjoint(item.fixturenames):
             item.add_marker(pytest.mark.node)
 
 

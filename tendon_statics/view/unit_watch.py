@@ -48,7 +48,7 @@ class UnitWatch:
         # Room for the estimators of a rig, which share the topic.
         self._diagnostics = NewestMessages(node, DiagnosticArray, '/diagnostics', depth=50)
         self._design = DesignQuestion(node, sighting.name)
-        self._ended = False
+        self._ended = True  # What has not begun needs no end.
 
     @property
     def design(self) -> JointDesign | None:

@@ -7,8 +7,10 @@ import subprocess
 import sys
 import threading
 from contextlib import contextmanager, suppress
+from multiprocessing import forkserver
 
 import bags
+import dask
 import numpy as np
 import pyarrow.dataset
 import pytest
@@ -84,10 +86,18 @@ def archive(tmp_path_factory):
 
 @pytest.fixture(scope='module')
 def cluster():
-    """Two workers in processes of their own."""
-    with LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address='127.0.0.1:0', silence_logs='CRITICAL'
-    ) as cluster:
+    """Two workers in processes of their own, forked where all is imported already."""
+    # With what the tests fork from; begun by dask, it would not have what those need.
+    forkserver.ensure_running()
+    with (
+        dask.config.set({'distributed.worker.multiprocessing-method': 'forkserver'}),
+        LocalCluster(
+            n_workers=2,
+            threads_per_worker=1,
+            dashboard_address='127.0.0.1:0',
+            silence_logs='CRITICAL',
+        ) as cluster,
+    ):
         yield cluster
 
 

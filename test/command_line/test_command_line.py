@@ -192,9 +192,12 @@ def test_design_shows_every_value():
 )
 def test_a_figure_is_written_the_same_each_time(tmp_path, figure, ending):
     files = [tmp_path / f'{i}.{ending}' for i in range(2)]
-    # In two ways, so that it does not depend on the order of sets either.
-    for file, run_either in zip(files, (run, run_installed), strict=True):
-        assert run_either('plot', figure, '--output', str(file)).returncode == 0
+    few = ('--points', '31') if figure == 'map' else ()
+    # In two ways, so that what is compared does not depend on the order of sets either.
+    for file, run_either in zip(
+        files, (run, run_installed if ending == 'svg' else run), strict=True
+    ):
+        assert run_either('plot', figure, '--output', str(file), *few).returncode == 0
         assert file.stat().st_size > 2000
     if ending == 'svg':
         assert files[0].read_bytes() == files[1].read_bytes()

@@ -132,7 +132,7 @@ def interrupted_at(moment, work):
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_leaves_nothing_half_written_and_no_traceback(tmp_path, number):
-    command = [*PROGRAM, 'sweep', '--points', '1500', '--output', str(tmp_path / 'map.csv')]
+    command = [*PROGRAM, 'sweep', '--points', '800', '--output', str(tmp_path / 'map.csv')]
     with subprocess.Popen(
         command,
         stderr=subprocess.PIPE,

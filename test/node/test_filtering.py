@@ -133,14 +133,18 @@ def test_a_measured_angle_that_the_model_does_not_explain_is_a_warning(filtering
             for status in filtering.diagnostics[since:]
         )
 
-    for _ in range(4000):  # It goes on, since what no longer comes is said to be stale.
+    def is_warned_after_one_more():
         angle = 0.1 + random.normal(0.0, 0.01)
         filtering.measured_bend_angle.publish(Float64(data=angle))
         filtering.answer(*STOP)
-        if is_warned():
-            break
-    assert is_warned()
-    assert any(estimate.consistency < 1e-9 for estimate in filtering.estimates)
+        return is_warned()
+
+    # It goes on, since what no longer comes is said to be stale.
+    wait_for('the warning', is_warned_after_one_more)
+    wait_for(
+        'the estimate that it is of',
+        lambda: any(estimate.consistency < 1e-9 for estimate in filtering.estimates),
+    )
     assert filtering.reset().success
 
 

@@ -169,6 +169,7 @@ def test_stamps_of_another_clock_are_a_warning(driver):
 def test_a_driver_that_does_not_stamp_is_taken_as_it_arrives(driver):
     with driver.estimator('-p', 'input_timeout:=60.0', greet=False):
         wait_for('an answer', lambda: driver.publish(*STOP, stamp=Time()) or driver.estimates)
+        driver.forget()  # What was answered before all topics were connected.
         count = len(driver.regimes)
         for _ in range(5):
             driver.publish(*STOP, stamp=Time())

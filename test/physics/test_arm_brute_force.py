@@ -5,6 +5,7 @@ import random
 
 import arm_brute
 import pytest
+from thoroughness import some_of
 
 from tendon_statics import (
     Arm,
@@ -18,7 +19,7 @@ from tendon_statics import (
     arm_margins,
 )
 
-ARMS = 8
+ARMS = some_of(16)
 
 
 @pytest.mark.parametrize('number', range(ARMS))

@@ -28,8 +28,13 @@ ONE_PAIR = Arm([UNIT] * 4, [Cable('l', 'l', 4), Cable('s', 's', 4)])
 TWO_PAIRS = Arm([UNIT] * 4, [*ONE_PAIR.cables, Cable('l2', 'l', 2), Cable('s2', 's', 2)])
 
 
-def test_the_joints_of_the_example_slip_from_the_tip_to_the_base():
-    order = arm_slip_order(ARM, EVEN, {**EVEN, 's_tip': 2.4})
+@pytest.fixture(scope='module')
+def order_of_the_example():
+    return arm_slip_order(ARM, EVEN, {**EVEN, 's_tip': 2.4})
+
+
+def test_the_joints_of_the_example_slip_from_the_tip_to_the_base(order_of_the_example):
+    order = order_of_the_example
     assert [slip.joint for slip in order] == [5, 4, 3, 2, 1]
     assert [slip.share for slip in order] == sorted(slip.share for slip in order)
     assert {slip.side for slip in order} == {'s'}
@@ -37,8 +42,8 @@ def test_the_joints_of_the_example_slip_from_the_tip_to_the_base():
         assert slip.tensions['s_tip'] == pytest.approx(1.0 + 1.4 * slip.share)
 
 
-def test_just_before_its_share_nothing_slips_and_just_after_the_joint_does():
-    first = arm_slip_order(ARM, EVEN, {**EVEN, 's_tip': 2.4})[0]
+def test_just_before_its_share_nothing_slips_and_just_after_the_joint_does(order_of_the_example):
+    first = order_of_the_example[0]
     for share, slips in ((first.share - 1e-6, False), (first.share + 1e-6, True)):
         margins = arm_margins(ARM, [0.0] * 5, {**EVEN, 's_tip': 1.0 + 1.4 * share})
         assert (abs(margins[first.joint - 1]) > 1.0) is slips

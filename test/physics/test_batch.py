@@ -14,7 +14,7 @@ from designs import PRELIMINARY, random_cases, random_design, random_tensions, t
 from hypothesis import given
 from hypothesis import strategies as st
 from programs import TIME_LIMIT
-from thoroughness import examples
+from thoroughness import examples, few_of
 
 from tendon_statics import JointDesign, Load, Regime, TensionError, solve, solve_batch
 from tendon_statics.physics.batch import INVALID, REGIME_CODES, pairs
@@ -101,7 +101,9 @@ def assert_agree(value, expected, tolerance, of, relative=TOLERANCE) -> None:
     if expected is None:
         assert np.isnan(value), of
     else:
-        assert value == pytest.approx(expected, rel=relative, abs=tolerance), of
+        # As `pytest.approx`, which takes most of the time for so many numbers.
+        allowed = max(relative * abs(expected), tolerance)
+        assert value == expected or abs(value - expected) <= allowed, of
 
 
 @st.composite
@@ -175,9 +177,12 @@ def test_pairs_that_hardly_exceed_the_weight_keep_their_digits(case, exponent, s
 
 
 @given(designs_with_pairs(), st.floats(0.01, 30.0))
-@examples(100)
+@examples(100, few_of)
 def test_a_root_at_an_end_of_the_range_is_judged_as_by_solve(case, spare):
-    """There the last bit decides the regime, so it has to be the same."""
+    """There the last bit decides the regime, so it has to be the same.
+
+    Without weight the equation is flat, so that `solve` takes a hundred times as long.
+    """
     design, _ = case
     total = 1.05 * design.weight + spare
     pairs = [tensions_at_slip(design, angle, total) for angle in (0.0, design.max_bend_angle)]

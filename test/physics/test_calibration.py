@@ -18,7 +18,7 @@ from slips import (
     session,
     slipping_samples,
 )
-from thoroughness import some_of
+from thoroughness import few_of
 
 from tendon_statics import CalibrationError, Recording, calibrate
 from tendon_statics.physics import design_parameters, paper
@@ -92,7 +92,7 @@ def deviations_and_cover(fits, names=THREE):
 )
 def test_intervals_cover_the_truth_at_their_stated_rate(fit, with_pressure, count, noise):
     """Also where the noise is three times the stated, and not by being wide."""
-    seeds = some_of(200)
+    seeds = few_of(200)
     start = dataclasses.replace(
         TRUTH, **{name: getattr(PRELIMINARY, name) for name in fit if name != 'cable_offset'}
     )
@@ -118,7 +118,7 @@ def test_intervals_cover_the_truth_at_their_stated_rate(fit, with_pressure, coun
 @pytest.mark.parametrize('ramp', [1, 80, 400])
 def test_held_samples_do_not_bias_what_slips_tell(ramp):
     """Neither the many that slow ramps bring next to the boundary, nor those at a stop."""
-    seeds = some_of(60)
+    seeds = few_of(60)
     pool = slipping_samples(300, np.random.default_rng(4))
 
     def fits():
@@ -175,7 +175,7 @@ def test_backbone_and_load_cells_of_any_law_come_back(law, fit, cells):
     exact = fitted(0, 0.0)
     assert [of.value for of in exact.parameters] == pytest.approx(true, rel=1e-4, abs=1e-6)
     assert exact.cells == pytest.approx(cells, abs=1e-5)
-    seeds = some_of(40)
+    seeds = few_of(40)
     covered = np.zeros(len(fit))
     for seed in range(seeds):
         intervals = [of.interval for of in fitted(seed, 1.0).parameters]

@@ -9,7 +9,7 @@ import pytest
 from brute import LAWS
 from designs import PRELIMINARY
 from law_sessions import SessionPlan, recorded, session_of, slips_of, unit_of
-from thoroughness import some_of
+from thoroughness import few_of
 
 from tendon_statics import CalibrationError, Load, compare_laws
 from tendon_statics.physics.calibration.experiments import predicted_slips
@@ -45,7 +45,7 @@ def compared(truth, plan, seed, fit=KNOWN_OFFSET, known=('cable_offset',), **opt
     ids=['pressure', 'friction known'],
 )
 def test_the_true_law_is_told_where_the_experiment_can_tell(law, plan, changes, fit, known):
-    for seed in range(some_of(8)):
+    for seed in range(few_of(8)):
         found = compared(unit_of(law, **changes), plan, seed, fit, ('cable_offset', *known))
         assert found.told == law, found.statement
         assert found.possible == [law]
@@ -58,7 +58,7 @@ def test_the_true_law_is_told_where_the_experiment_can_tell(law, plan, changes, 
 @pytest.mark.parametrize('changes', [{}, {'mass': 1e-4}], ids=['upright', 'light'])
 def test_no_law_is_told_where_friction_makes_up_for_it(law, changes):
     """An upright unit has one effective coefficient: each law has a friction that gives it."""
-    for seed in range(some_of(8)):
+    for seed in range(few_of(8)):
         found = compared(unit_of(law, **changes), SessionPlan(), seed, with_advice=False)
         assert found.told is None
         assert law in found.possible

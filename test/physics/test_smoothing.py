@@ -12,16 +12,11 @@ def estimate(signal, age, seed=0):
     """Estimates at one age along a noisy signal, and their standard errors, by window."""
     random = np.random.default_rng(seed)
     samples = signal + random.normal(0.0, NOISE, len(signal))
-    ends = range(REACH + age + 1, len(signal) + 1)
-    found = [
-        Windows(REACH + age, np.array([age])).estimate(
-            samples[None, end - REACH - age : end], NOISE
-        )
-        for end in ends
-    ]
-    places = np.array([end - 1 - age for end in ends])
-    value, error = np.array([(one.value[0, 0], one.error[0, 0]) for one in found]).T
-    return signal[places], value, error
+    count = REACH + age
+    # Each a signal of its own, that begins one sample later.
+    seen = np.lib.stride_tricks.sliding_window_view(samples, count)[1:]
+    found = Windows(count, np.array([age])).estimate(seen, NOISE)
+    return signal[REACH : len(signal) - age], found.value[:, 0], found.error[:, 0]
 
 
 def test_the_noise_of_a_rest_shrinks_by_the_root_of_the_samples():

@@ -1,5 +1,6 @@
 """Recordings in ROS 2 bags: topics, times, and what of a damaged file is kept."""
 
+import functools
 import math
 import shutil
 import sqlite3
@@ -204,19 +205,23 @@ def test_a_pair_of_which_one_topic_is_empty_is_refused(tmp_path):
 
 
 @pytest.fixture(scope='module')
-def long_bag(tmp_path_factory, request):
-    """A file of the kind asked for, and what is in it."""
-    file = write_bag(tmp_path_factory.mktemp('long') / 'bag', session(30000), request.param)
-    return file, load_recording(file)
+def long_bag(tmp_path_factory):
+    """Gives a file of the kind asked for, written once, and what is in it."""
+
+    @functools.cache
+    def written(plugin):
+        file = write_bag(tmp_path_factory.mktemp('long') / 'bag', session(15000), plugin)
+        return file, load_recording(file)
+
+    return written
 
 
 @pytest.mark.parametrize(
-    ('long_bag', 'share'),
+    ('plugin', 'share'),
     [('MCAP', 0.75), ('MCAP', 0.99), ('MCAP', 0.9999), ('SQLITE3', 0.97)],
-    indirect=['long_bag'],
 )
-def test_of_a_truncated_file_the_beginning_is_read(tmp_path, long_bag, share):
-    file, whole = long_bag
+def test_of_a_truncated_file_the_beginning_is_read(tmp_path, long_bag, plugin, share):
+    file, whole = long_bag(plugin)
     content = file.read_bytes()
     beginning = tmp_path / file.name
     beginning.write_bytes(content[: int(share * len(content))])

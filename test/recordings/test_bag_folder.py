@@ -1,5 +1,6 @@
 """Which files make a bag: its manifest, split and compressed files, strangers, missing ones."""
 
+import functools
 import shutil
 
 import bags
@@ -20,19 +21,31 @@ def tensions(first, count):
         yield '/tensions', 0.01 * index, bags.array(1.0, float(index))
 
 
+@pytest.fixture(scope='module')
+def written_split(tmp_path_factory):
+    """Gives a bag of twelve files of the kind asked for, written once."""
+
+    @functools.cache
+    def written(ending):
+        parts = tmp_path_factory.mktemp('parts')
+        folder = parts / 'split'
+        folder.mkdir()
+        names = []
+        for number in range(12):
+            plugin = {'mcap': 'MCAP', 'db3': 'SQLITE3'}[ending]
+            file = write_bag(parts / f'part_{number}', tensions(8 * number, 8), plugin)
+            names.append(f'run_{number}.{ending}')
+            shutil.move(file, folder / names[-1])
+        write_manifest(folder, names, 96)
+        return folder
+
+    return written
+
+
 @pytest.fixture(params=['mcap', 'db3'])
-def split(tmp_path, request):
+def split(tmp_path, written_split, request):
     """A bag of twelve files with eight messages each, listed in the order of recording."""
-    folder = tmp_path / 'split'
-    folder.mkdir()
-    names = []
-    for number in range(12):
-        plugin = {'mcap': 'MCAP', 'db3': 'SQLITE3'}[request.param]
-        file = write_bag(tmp_path / f'part_{number}', tensions(8 * number, 8), plugin)
-        names.append(f'run_{number}.{request.param}')
-        shutil.move(file, folder / names[-1])
-    write_manifest(folder, names, 96)
-    return folder
+    return shutil.copytree(written_split(request.param), tmp_path / 'split')
 
 
 def write_manifest(folder, names, count, **more):

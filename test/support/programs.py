@@ -22,14 +22,21 @@ _FORKS = multiprocessing.get_context('forkserver')
 # Once for all that are forked. What is missing here is only slower.
 _FORKS.set_forkserver_preload(
     [
-        *('__main__', *(f'tendon_statics.command_line.{verb}' for verb in VERBS)),
+        *(
+            '__main__',
+            *(f'tendon_statics.command_line.{verb.replace("-", "_")}' for verb in VERBS),
+        ),
+        *(
+            'tendon_statics.command_line.arm_plot',
+            'tendon_statics.recordings.reading.bag_tensions',
+        ),
         *(
             'matplotlib.figure',
             'matplotlib.backends.backend_svg',
             'matplotlib.backends.backend_agg',
         ),
         *('numpy', 'scipy.optimize', 'scipy.special', 'mcap.reader', 'rosbags.typesys'),
-        *('pyarrow.parquet', 'tqdm', 'yaml', 'zstandard'),
+        *('pyarrow.parquet', 'tqdm', 'yaml', 'zstandard', 'distributed'),
     ]
 )
 

@@ -1,11 +1,12 @@
 """How much is tried: all of it in CI, a part of it at the desk, where one waits.
 
-The profiles are hypothesis's own; `some_of` and `examples` scale with the one that is loaded.
+The profiles are hypothesis's own; the functions below scale with the one that is loaded.
 """
 
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 
 from hypothesis import settings
 
@@ -23,6 +24,11 @@ def some_of(count: int) -> int:
     return count * settings().max_examples // WHOLE
 
 
-def examples(count: int) -> settings:
+def few_of(count: int) -> int:
+    """Return how many of `count` simulations, which take long, are run: all in CI, or a tenth."""
+    return count if settings().max_examples >= WHOLE else max(1, count // 10)
+
+
+def examples(count: int, how_many: Callable[[int], int] = some_of) -> settings:
     """Try so many examples of a property, in CI, and a part of them elsewhere."""
-    return settings(max_examples=some_of(count))
+    return settings(max_examples=how_many(count))

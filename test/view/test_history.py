@@ -3,10 +3,12 @@
 import math
 
 import pytest
+from list_entities import alone
 
 from tendon_statics import Load, default_design_path, load_design, solve
 from tendon_statics.physics import TensionError
 from tendon_statics.physics.batch import INVALID, REGIME_CODES
+from tendon_statics.view.estimators_in_sight import Sighting
 from tendon_statics.view.history import COLUMNS, LONGEST_BAND, SPAN, History, Sample
 from tendon_statics.view.regime_map import (
     POINTS,
@@ -14,6 +16,7 @@ from tendon_statics.view.regime_map import (
     map_end,
     regimes_over_tensions,
 )
+from tendon_statics.view.view import View
 
 DESIGN = load_design(default_design_path())
 
@@ -45,6 +48,13 @@ def test_a_band_reaches_from_the_sample_before_but_not_over_a_gap():
         history.add(time, Sample())
     columns = history.since(0)
     assert list(columns['before']) == pytest.approx([1e4 - 1e3 * LONGEST_BAND, 1e4, 1.4e4])
+
+
+def test_before_the_first_estimate_there_is_nothing_to_draw():
+    with alone(View) as view:
+        watch = view.watches.look(Sighting('/estimator', '/estimator/estimate'))
+        watch.poll()
+        assert watch.history.count == 0
 
 
 def test_intervals_are_drawn_as_far_as_there_is_room():
