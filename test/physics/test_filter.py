@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from designs import PRELIMINARY
 from measure_filter.sessions import UNITS, session
-from thoroughness import few_of
+from thoroughness import few_of, some_of
 
 from tendon_statics import (
     BendAngleError,
