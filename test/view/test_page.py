@@ -214,17 +214,21 @@ def test_the_page_works_at_a_forwarded_port_of_another_number(rig, browser):
 
 
 def test_a_filtering_estimator_is_shown_with_the_probability_of_each_regime(rig, browser):
-    rig.start('fourth', 'estimator', '-p', 'estimation:=filtering')
-    rig.drive('fourth', tensions=HELD)
+    estimator = rig.start('fourth', 'estimator', '-p', 'estimation:=filtering')
+    driver = rig.drive('fourth', tensions=HELD)
     page = LivePage(browser, rig.url)
     page.wait('model("estimator").options.includes("/fourth/estimator")')
     page.choose('/fourth/estimator')
-    page.wait('model("bars").data.probability.length == 5')
+    # Not what it drew at first, of another estimator.
+    page.wait(f'model("present").data.tension_s[0] == {HELD[1]}')
+    page.wait('model("probabilities").visible && model("bars").data.probability.length == 5')
     assert page.get('probabilities', 'visible')
     assert sum(page.data('bars')['probability']) == pytest.approx(1.0, abs=0.01)
     page.wait_for_words('held', 'take it back')
     page.wait('model("body").data.angle.length == 1')
     page.close()
+    driver.end()
+    estimator.end()
 
 
 def test_the_page_fits_a_phone(rig, browser):
@@ -235,9 +239,9 @@ def test_the_page_fits_a_phone(rig, browser):
 
 
 def test_no_more_than_twenty_drawings_come_in_a_second_at_500_hz(rig, browser):
-    rig.drive('left', rate=450.0)
+    driver = rig.drive('left', rate=450.0)
     page = LivePage(browser, rig.url)
-    page.choose('/left/estimator')
+    look_at(page, 'left')
     page.wait('model("history").data.time.length > 5')
     begin, drawn = page.tab.evaluate('performance.now()'), page.drawings.streamed
     page.wait(f'model("history").data.time.length > {5 + 60}')
@@ -245,6 +249,7 @@ def test_no_more_than_twenty_drawings_come_in_a_second_at_500_hz(rig, browser):
     # One may have been on its way already, at either end.
     assert 10 <= page.drawings.streamed - drawn <= 20.0 * took + 2
     page.close()
+    driver.end()
 
 
 def test_a_closed_tab_leaves_nobody_who_listens(rig, browser):
