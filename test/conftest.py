@@ -26,7 +26,12 @@ def pytest_xdist_auto_num_workers():
 def pytest_collection_modifyitems(items):
     """Mark the tests of the node: those that run a program, or listen to one."""
     for item in items:
-        if 'Program' in vars(item.module) or not LISTENERS.isdisjoint(item.fixturenames):
+        there = vars(item.module)
+        if (
+            'Program' in there
+            or 'Listener' in there
+            or not LISTENERS.isdisjoint(item.fixturenames)
+        ):
             item.add_marker(pytest.mark.node)
 
 

@@ -59,7 +59,9 @@ def test_the_output_says_where_its_values_come_from(tmp_path, session):
     assert done.stderr.count('\n') == 1
     assert 'session.csv: not all of it could be read: line 43' in done.stderr
     comment = [line for line in output.read_text().splitlines() if line.startswith('#')]
-    for line in done.stdout.splitlines():
+    *said, wrote = done.stdout.splitlines()
+    assert wrote == f'wrote {output}'
+    for line in said:
         assert f'# {line}'.rstrip() in comment
     for named in ('slipping: 40, with a pressure: 40, held: 1', 'slack: 1', 'known state: 1'):
         assert named in done.stdout

@@ -106,7 +106,7 @@ class _Page(HTMLParser):
 def test_its_report_is_one_file_that_asks_for_nothing(tmp_path):
     output = tmp_path / 'report.html'
     done = run('report', OUTPUT, *STATES, '--output', output)
-    assert (done.returncode, done.stdout, done.stderr) == (0, '', '')
+    assert (done.returncode, done.stdout, done.stderr) == (0, f'wrote {output}\n', '')
     page = _Page()
     page.feed(output.read_text(encoding='utf-8'))
     assert all(link.startswith(('#', 'data:')) for link in page.links)

@@ -40,7 +40,7 @@ def test_every_message_is_answered_whatever_the_middleware_leaves_out(middleware
     message = Float64MultiArray(data=[1.0, 2.0])
     with alone(Estimator, '-p', 'input_timeout:=60.0') as node:
         published = []
-        node._outputs.publish = lambda *given, **_: published.append(given[2]())
+        node._outputs.publish = lambda *given, **_: published.append(given[1]())
         (tensions,) = [of for of in node.subscriptions if of.topic_name == '/tensions']
         before = time.time()
         for info in infos(middleware, 10):
