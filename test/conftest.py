@@ -15,12 +15,15 @@ LISTENERS = {'listener', 'running', 'filtering'}
 """Fixtures that listen to an estimator"""
 
 
-def pytest_xdist_auto_num_workers():
+def pytest_xdist_auto_num_workers(config):
     """Two workers a core, since tests of the node mostly wait for one another's processes.
+
+    Without these one, as each takes some seconds to load what it tests.
 
     More than 16 gain little, and each has processes and a ROS domain of its own.
     """
-    return min(2 * len(os.sched_getaffinity(0)), 16)
+    a_core = 1 if config.option.markexpr == 'not node' else 2
+    return min(a_core * len(os.sched_getaffinity(0)), 16)
 
 
 def pytest_collection_modifyitems(items):
