@@ -1,11 +1,16 @@
 """Keeps every test on this machine and in a ROS domain of its own worker."""
 
 import os
+import signal
 from contextlib import ExitStack
 from dataclasses import asdict
 
 import pytest
 import thoroughness  # noqa: F401  which chooses hypothesis's profile
+
+# In the background a shell has a program ignore Ctrl-C, and with it those that this one starts.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Without it `Float64(data=3)` is silently taken.
 os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'

@@ -26,8 +26,6 @@ def declare(node: Node, parameter: Parameter) -> Any:
     default = list(parameter.default) if _is_sequence(parameter) else parameter.default
     # rclpy has no public view of overrides. `1` for a double would make it an integer.
     given = node._parameter_overrides.get(name)
-    if given is None and isinstance(parameter, ListParameter):
-        given = ROSParameter(name, value=default)
     if given is not None:
         node._parameter_overrides[name] = converted(parameter, given)
     try:
@@ -37,6 +35,9 @@ def declare(node: Node, parameter: Parameter) -> Any:
         # Our own check says what is allowed, which rclpy does not.
         descriptor = _descriptor(parameter, with_range=False)
         value = node.declare_parameter(name, default, descriptor).value
+    if isinstance(parameter, ListParameter) and not value:
+        # Declaring infers a type from the value, and takes an empty list for one of bytes.
+        node.set_parameters([converted(parameter, ROSParameter(name, value=[]))])
     if parameter.is_fixed:
         parameter.check(_plain(parameter, value))
     return _plain(parameter, value)
