@@ -86,7 +86,7 @@ class Filtering(Method):
         if state.bend_angle is not None:
             self._here = state
             self._waiting.append((time, sample.measured))
-        self._assured = state.angle_assured
+        self._assured = state.assured
         self._newest = self._estimate(state, sample.known, sample.measured)
         return self._newest
 

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..load import Load
-from ..state import Equilibrium, Regime
+from ..regime import Regime
+from ..state import Equilibrium
 from .arm import Arm
 from .shape import TipPose, tip_by_angles, tip_pose
 

@@ -14,7 +14,7 @@ from ..design import JointDesign
 from ..design_uncertainty import DesignUncertainty
 from ..errors import TensionError
 from ..load import UPRIGHT, Load
-from ..state import Regime
+from ..regime import Regime
 from ..tensions import Tensions, check_tensions, taut_slip
 from .consistency import Consistency
 from .ensemble import Ensemble
@@ -200,7 +200,7 @@ class StickSlipFilter:
             samples.popleft()
         self._measured -= first
         if not self._assured and state.regime_probabilities[Regime.DRIVEN_TO_STOP] > SURE:
-            self._assured = state.angle_assured = True
+            self._assured = state.assured = True
         self._last = state
         return state
 
@@ -223,7 +223,7 @@ class StickSlipFilter:
             member_tensions=member_tensions,
             tension_errors=tension_errors,
             provisional=provisional,
-            angle_assured=self._assured,
+            assured=self._assured,
             consistency=self.consistency,
         )
 
