@@ -23,16 +23,17 @@ LISTENERS = {'listener', 'running', 'filtering'}
 def pytest_xdist_auto_num_workers(config):
     """Two workers a core, since tests of the node mostly wait for one another's processes.
 
-    Without these one, as each takes some seconds to load what it tests.
+    Without these one, as each takes some seconds to load what it tests; and one in CI, where
+    nobody waits and other work may be on the same cores.
 
     More than 16 gain little, and each has processes and a ROS domain of its own.
     """
-    a_core = 1 if config.option.markexpr == 'not node' else 2
+    a_core = 1 if config.option.markexpr == 'not node' or os.environ.get('CI') else 2
     return min(a_core * len(os.sched_getaffinity(0)), 16)
 
 
 def pytest_collection_modifyitems(items):
-    """Mark the tests of the node: those that run a program, or listen to one."""
+    """Mark the tests of the node: those that run a program, or listen to one; and a browser's."""
     for item in items:
         there = vars(item.module)
         if (
@@ -41,6 +42,8 @@ def pytest_collection_modifyitems(items):
             or not LISTENERS.isdisjoint(item.fixturenames)
         ):
             item.add_marker(pytest.mark.node)
+        if 'browser' in item.fixturenames:
+            item.add_marker(pytest.mark.browser)
 
 
 @pytest.fixture(scope='session', autouse=True)

@@ -9,10 +9,11 @@ from contextlib import contextmanager, suppress
 from typing import Any, ClassVar
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
+from lifecycle_msgs.srv import GetState
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
-from ros_programs import TIME_LIMIT, Program, wait_for
+from ros_programs import TIME_LIMIT, Program, ask, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray, String
 from tendon_statics_interfaces.msg import Estimate
@@ -99,11 +100,9 @@ class EstimatorClient(Node):
             yield program
 
     def connect(self, program: Program, *, without: str = '', greet: bool = True) -> None:
-        """Wait until messages pass both ways on every topic but the one named.
+        """Wait until nothing is lost any more either way, on every topic but the one named.
 
-        That both ends are found is known on this side only, and the first messages may be lost
-        while the other side does not know yet. So the estimator is greeted with tensions that it
-        answers on all topics, until it has answered; what it said is then forgotten.
+        Unless it is not to be greeted, it has answered tensions then; what it said is forgotten.
         """
         kept = {
             subscription.topic_name: store
@@ -122,6 +121,7 @@ class EstimatorClient(Node):
             )
 
         wait_for('the estimator', found)
+        self.become_known()
         if not greet:
             return
         self.forget()
@@ -157,6 +157,16 @@ class EstimatorClient(Node):
                 wait_for('the numbers of a held unit', lambda s=store, n=count + more: len(s) == n)
         self.forget()
 
+    def become_known(self) -> None:
+        """Wait until the estimator knows all that this node has made so far, and is spun.
+
+        Whether both ends of a topic have found each other is known on this side only, and what
+        the other side sends before is lost, or never sent. It learns of the publishers,
+        subscriptions and clients of a node in the order in which they were made, so it knows all
+        of them when it answers one that is made now.
+        """
+        ask(self.create_client(GetState, 'estimator/get_state'), GetState.Request())
+
     def forget(self) -> None:
         """Forget all that came of results."""
         for store in self._stores:
@@ -168,22 +178,8 @@ class EstimatorClient(Node):
         self.tension_publishers[0].publish(message)
 
     def call(self, name: str, request: Any) -> Any:
-        """Call a service of the estimator that does the same however often it is called.
-
-        An answer may be lost while the estimator does not know this client yet, so the call is
-        repeated until there is one.
-        """
-        client = self._clients_by_name[name]
-        assert client.wait_for_service(TIME_LIMIT)
-        deadline = time.monotonic() + TIME_LIMIT
-        while True:
-            future = client.call_async(request)
-            try:
-                wait_for(f'an answer of {name}', future.done, time_limit=2.0)
-                return future.result()
-            except TimeoutError:
-                if time.monotonic() > deadline:
-                    raise
+        """Call a service of the estimator that does the same however often it is called."""
+        return ask(self._clients_by_name[name], request)
 
     def solve(self, tension_l: float, tension_s: float) -> Solve.Response:
         """Call ``~/solve``."""

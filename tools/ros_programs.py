@@ -11,11 +11,12 @@ import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from ament_index_python.packages import get_package_prefix
+from rclpy.client import Client
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -34,6 +35,27 @@ def wait_for(what: str, condition: Callable[[], bool], time_limit: float = TIME_
         if time.monotonic() > deadline:
             raise TimeoutError(f'waited {time_limit:.0f} s for {what}')
         time.sleep(0.002)
+
+
+def ask(client: Client, request: Any) -> Any:
+    """Ask a service that does the same however often it is asked, until it answers.
+
+    An answer is lost while the server does not know the client yet, so it is asked again, each
+    time after twice as long. Of a server that is only slow the answer to any of them counts.
+    """
+    wait_for(client.srv_name, client.service_is_ready)
+    asked = []
+    patience, deadline = 1.0, time.monotonic() + TIME_LIMIT
+    while not any(future.done() for future in asked):
+        if time.monotonic() > deadline:
+            raise TimeoutError(f'{client.srv_name} was asked {len(asked)} times, without answer')
+        asked.append(client.call_async(request))
+        with suppress(TimeoutError):
+            wait_for(
+                'an answer', lambda: any(future.done() for future in asked), time_limit=patience
+            )
+        patience *= 2.0
+    return next(future.result() for future in asked if future.done())
 
 
 _ENDED = os.WEXITED | os.WNOWAIT | os.WNOHANG

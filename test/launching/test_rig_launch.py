@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from lifecycle_msgs.srv import GetState
 from rclpy.node import Node
-from ros_programs import Program, spinning, wait_for
+from ros_programs import Program, ask, spinning, wait_for
 from tendon_statics_interfaces.msg import Estimate
 
 from tendon_statics.files.installed_files import installed_config
@@ -117,10 +117,7 @@ def test_a_lifecycle_manager_may_start_the_rig():
         Program.running_command([*LAUNCH, 'autostart:=false']) as rig,
     ):
         client = audience.create_client(GetState, '/distal/estimator/get_state')
-        wait_for('the estimator', client.service_is_ready)
-        answer = client.call_async(GetState.Request())
-        wait_for('its state', answer.done)
-        assert answer.result().current_state.label == 'unconfigured'
+        assert ask(client, GetState.Request()).current_state.label == 'unconfigured'
         assert rig.end(signal.SIGINT) == 0
 
 

@@ -6,7 +6,6 @@ import signal
 import sys
 import threading
 import time
-from contextlib import suppress
 from importlib.metadata import version
 
 import numpy as np
@@ -15,7 +14,7 @@ from designs import PRELIMINARY
 from listener import reliable_input
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from ros_programs import Program, spinning, wait_for
+from ros_programs import Program, ask, spinning, wait_for
 from std_msgs.msg import Float64, Float64MultiArray, String
 from std_srvs.srv import Trigger
 from tendon_statics_interfaces.msg import Estimate
@@ -642,10 +641,7 @@ def test_the_regime_is_there_for_who_joins_later_though_nobody_heard_it():
 
         def taken() -> bool:
             tensions.publish(Float64MultiArray(data=list(SLIPPING)))
-            asked = latest.call_async(Trigger.Request())
-            with suppress(TimeoutError):
-                wait_for('an answer', asked.done, time_limit=2.0)
-            return asked.done() and asked.result().success
+            return ask(latest, Trigger.Request()).success
 
         wait_for('tensions to be taken', taken)
         with spinning(lambda context: Node('late', context=context)) as late:

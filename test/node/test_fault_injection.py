@@ -246,11 +246,12 @@ def test_of_two_drivers_at_once_no_pair_is_mixed_and_both_are_noticed(
 def test_a_bad_parameter_in_the_middle_of_a_stream_changes_nothing(observer, recording):
     with (
         estimator_of(observer, recording) as program,
-        driver(recording, 'rate:=250.0') as made,
+        # No more than a busy machine can take: requests wait for what came before them.
+        driver(recording, 'rate:=50.0') as made,
     ):
         for number in range(20):
             count = len(observer.estimates)
-            wait_for('the stream', lambda n=count: len(observer.estimates) > n + 10)
+            wait_for('the stream', lambda n=count: len(observer.estimates) > n + 4)
             result = observer.set_estimator_parameters(
                 design__max_bend_angle=0.1, design__mass=-1.0 - number
             )

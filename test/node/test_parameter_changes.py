@@ -1,7 +1,6 @@
 """Changes of parameters while the node runs: one by one, together, and as a file."""
 
 import dataclasses
-from contextlib import suppress
 
 import pytest
 from designs import PRELIMINARY
@@ -11,7 +10,7 @@ from rcl_interfaces.srv import GetParameters
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from ros_domain import in_domain
-from ros_programs import spinning, wait_for
+from ros_programs import ask, spinning, wait_for
 from tendon_statics_interfaces.srv import Solve
 
 from tendon_statics import DesignUncertainty, default_design_path, save_design, solve
@@ -202,14 +201,7 @@ def test_a_burst_of_requests_is_answered_to_the_last(running):
         client = asker.create_client(Solve, 'estimator/solve', qos_profile=QoSProfile(depth=1000))
         request = Solve.Request(tension_l=1.0, tension_s=2.0)
 
-        def is_known() -> bool:
-            first = client.call_async(request)
-            with suppress(TimeoutError):
-                wait_for('an answer', first.done, time_limit=2.0)
-            return first.done()
-
-        wait_for('the estimator', client.service_is_ready)
-        wait_for('that it knows the client', is_known)
+        ask(client, request)  # So that it knows the client.
         asked = [client.call_async(request) for _ in range(500)]
         wait_for('every answer', lambda: all(one.done() for one in asked))
 

@@ -8,7 +8,7 @@ from designs import PRELIMINARY
 from geometry_msgs.msg import WrenchStamped
 from list_entities import alone, entities
 from rclpy.time import Time
-from ros_programs import TIME_LIMIT, wait_for
+from ros_programs import ask, wait_for
 from std_msgs.msg import Float64
 from tendon_statics_interfaces.msg import TipForce
 from tendon_statics_interfaces.srv import SolveTipForce
@@ -111,31 +111,22 @@ def test_a_set_at_rest_and_a_force_while_the_measured_angle_moves(pushed):
 def test_the_service_answers_for_any_line_and_refuses_with_the_reason(pushed):
     listener, _, _ = pushed
     client = listener.create_client(SolveTipForce, 'estimator/solve_tip_force')
-    assert client.wait_for_service(TIME_LIMIT)
 
-    def ask(**fields):
+    def answer(**fields):
         request = SolveTipForce.Request(tension_l=PAIR[0], tension_s=PAIR[1], bend_angle=0.1)
         for name, value in fields.items():
             setattr(request, name, value)
-        futures = [client.call_async(request)]
+        return ask(client, request)
 
-        def answered() -> bool:
-            if not futures[-1].done():
-                futures.append(client.call_async(request))
-            return any(future.done() for future in futures)
-
-        wait_for('an answer', answered)
-        return next(future.result() for future in futures if future.done())
-
-    of_node = ask()
+    of_node = answer()
     expected = tip_force(PRELIMINARY, *PAIR, bend_angle=0.1, **ACROSS, **NOISE)
     assert of_node.success, of_node.message
     assert list(of_node.intervals) == pytest.approx(list(expected.intervals[0]), abs=1e-6)
     assert math.isnan(of_node.force)
-    number = ask(slipping='s')
+    number = answer(slipping='s')
     ((_, high),) = tip_force_intervals(PRELIMINARY, *PAIR, bend_angle=0.1, **ACROSS)
     assert number.force == pytest.approx(high, abs=1e-9)
-    other = ask(direction=[0.6, 0.0, 0.8], tip_distance=0.03)
+    other = answer(direction=[0.6, 0.0, 0.8], tip_distance=0.03)
     line = {'direction': (0.6, 0.8), 'distance': 0.03}
     along = tip_force(PRELIMINARY, *PAIR, bend_angle=0.1, **line, **NOISE)
     assert list(other.intervals) == pytest.approx(list(along.intervals[0]), abs=1e-6)
@@ -147,7 +138,7 @@ def test_the_service_answers_for_any_line_and_refuses_with_the_reason(pushed):
         ({'tension_l': 0.0}, 'slack'),
         ({'slipping': 'x'}, 'slipping'),
     ):
-        refused = ask(**fields)
+        refused = answer(**fields)
         assert not refused.success
         assert reason in refused.message
         assert '\n' not in refused.message

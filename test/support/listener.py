@@ -24,7 +24,7 @@ from rclpy.context import Context
 from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.qos import QoSProfile
 from rclpy.time import Time
-from ros_programs import TIME_LIMIT, Program, wait_for
+from ros_programs import Program, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Header
 from std_srvs.srv import Trigger
@@ -65,7 +65,7 @@ class Listener(EstimatorClient):
         'set_parameters': SetParameters,
         'set_parameters_atomically': SetParametersAtomically,
         'load_design': LoadDesign,
-        'get_state': GetState,  # the last; see call_once
+        'get_state': GetState,
     }
 
     def __init__(self, context: Context, tension_source: str | None = 'array') -> None:
@@ -120,6 +120,7 @@ class Listener(EstimatorClient):
             return all(client.service_is_ready() for client in self._clients_by_name.values())
 
         wait_for('the services', found)
+        self.become_known()
 
     def change_state(self, transition: str) -> bool:
         """Ask for a transition of the estimator's lifecycle by its label."""
@@ -210,13 +211,10 @@ class Listener(EstimatorClient):
     def call_once(self, name: str, request: Any) -> Any:
         """Call a service that does something else if it is called again, such as ``~/tare``.
 
-        The estimator learns of the clients of a node in the order in which they were made. Once
-        it answers the last of them, which only asks for the state, it knows them all, and no
-        answer is lost any more.
+        Its answer cannot be lost, since the estimator has known this node since `connect`.
         """
-        self.estimator_state()
         client = self._clients_by_name[name]
-        assert client.wait_for_service(TIME_LIMIT)
+        wait_for(name, client.service_is_ready)
         future = client.call_async(request)
         wait_for(f'an answer of {name}', future.done)
         return future.result()

@@ -55,7 +55,7 @@ def _pour(source: socket.socket, sink: socket.socket) -> None:
 
 
 class LivePage:
-    """One tab of a browser with the page in it."""
+    """One tab of a browser with the page in it; it is closed at the end of a `with`."""
 
     def __init__(self, browser: Browser, url: str, **options: Any) -> None:
         self.tab = browser.new_page(**options)
@@ -99,6 +99,22 @@ class LivePage:
     def press(self, label: str) -> None:
         """Press a button."""
         self.tab.get_by_role('button', name=label).click()
+
+    def wait_for_drawings(self, count: int) -> None:
+        """Wait until so many have come since the tab was opened."""
+
+        def come() -> bool:
+            # What comes to the browser is only counted while something is asked of it.
+            self.tab.wait_for_timeout(20.0)
+            return self.drawings.streamed >= count
+
+        wait_for(f'{count} drawings', come)
+
+    def __enter__(self) -> LivePage:
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        self.close()
 
     def close(self) -> None:
         """Close the tab."""
