@@ -62,7 +62,7 @@ class _Version(argparse.Action):
 
 
 def with_word_first(arguments: Sequence[str], words: Iterable[str]) -> list[str]:
-    """Put the first of some words, a verb or a figure, before the options that precede it.
+    """Put the first of some words, verbs or figures, before the options that precede it.
 
     So options count in any place. Values of those that every verb has may be called as a word.
     """
@@ -94,8 +94,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             module = import_module(f'{__package__}.{verb.replace("-", "_")}')
             module.add_arguments(subparser)
             subparser.set_defaults(run=module.run)
-            if verb == 'plot':
-                arguments[1:] = with_word_first(arguments[1:], module.FIGURES)
+            if verb in ('plot', 'arm'):
+                words = module.FIGURES if verb == 'plot' else module.ARM_VERBS
+                arguments[1:] = with_word_first(arguments[1:], words)
     with suppress(ValueError):  # Only the main thread may.
         # So that a half-written file is removed.
         signal.signal(signal.SIGTERM, _interrupt)

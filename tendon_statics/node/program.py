@@ -80,8 +80,9 @@ def run(name: str, module: str, node_class: str, arguments: Sequence[str] | None
             return 0
         try:
             node = make_node()
-            if name == ESTIMATOR:
-                check_parameter_files(arguments, node.get_fully_qualified_name())
+            namespace = node.get_namespace().rstrip('/')
+            beside = '' if name == ESTIMATOR else f'{namespace}/{ESTIMATOR}'
+            check_parameter_files(arguments, node.get_fully_qualified_name(), beside)
         except (StartError, ParameterException, RuntimeError, ValueError) as error:
             # RuntimeError and ValueError are rclpy's own, of bad overrides and names.
             return _say(name, error) if rclpy.ok() else 0

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 WHAT = {
     'estimator': 'Bend angle and joint pressure of one unit from its cable tensions, as a node.',
     'pulley_driver': 'Plays recorded tensions where a rig has motor drivers, as a node.',
+    'view': 'A live page in the browser of what the estimators say, as a node.',
 }
 """Program → what it does"""
 
@@ -33,7 +34,13 @@ def node_help(name: str, arguments: Sequence[str]) -> str:
 def _help(name: str) -> str:
     from ..files.driver_parameters import DRIVER_PARAMETERS
     from ..files.estimator_parameters import ESTIMATOR_PARAMETERS
+    from ..files.view_parameters import VIEW_PARAMETERS
 
+    tables = {
+        'estimator': ESTIMATOR_PARAMETERS,
+        'pulley_driver': DRIVER_PARAMETERS,
+        'view': VIEW_PARAMETERS,
+    }
     lines = [
         f'usage: {name} [--help] [--version] [--ros-args ROS-ARGUMENTS]',
         '',
@@ -45,12 +52,12 @@ def _help(name: str) -> str:
         f'  {name} --ros-args -r __ns:=/left               a namespace',
         '',
         'parameters, with their defaults and what is allowed:',
+        *_lines(tables[name]),
     ]
+    if name == 'view':  # It finds the topics by itself, in every namespace.
+        lines = [line for line in lines if ' -r ' not in line]
     if name == 'estimator':
-        lines += _lines(ESTIMATOR_PARAMETERS)
         lines.append("  design....: the unit's design; `tendon-statics design` lists it")
-    else:
-        lines += _lines(DRIVER_PARAMETERS)
     return '\n'.join(lines)
 
 
