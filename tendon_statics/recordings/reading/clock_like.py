@@ -13,8 +13,8 @@ from ..recording import Floats
 from .time_column import TimeColumn, Times, is_moment, times_of_moments
 
 _COUNTERS = (
-    'index idx sample samples seq sequence row rows line frame count counter id no nr num number n '
-    'i trial run cycle step phase segment block unnamed key'
+    'index idx sample samples seq sequence row rows line frame count counter id no nr num number '
+    'n i trial run cycle step phase segment block unnamed key'
 )
 _OTHERS = (
     'tension force load weight moment torque effort pressure angle bend tilt roll position pos '

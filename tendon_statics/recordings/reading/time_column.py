@@ -82,8 +82,8 @@ def find_time(titles: Sequence[str]) -> TimeColumn | None:
         title, unit = strange[0]
         raise RecordingError(
             f'the column {title!r} looks like the time, in {unit!r}, which is no unit of it; '
-            f'there are {", ".join(UNITS["time"])}: name it by --columns time="{title}" and its unit by '
-            '--units time=UNIT, or another column by --columns time=TITLE'
+            f'there are {", ".join(UNITS["time"])}: --columns time="{title}" --units time=UNIT '
+            'says which, --columns time=TITLE names another column'
         )
     return min(found, key=lambda of: of[:2])[2] if found else None
 
