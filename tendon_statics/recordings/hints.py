@@ -48,6 +48,7 @@ def hints(
             _of_tilt(recording),
             _of_tensions(recording, design),
             _of_time(recording),
+            _of_clock(recording),
             *_of_spikes(recording, design, believed),
         )
         if hint
@@ -162,3 +163,12 @@ def _of_time(recording: Recording) -> str:
             'be a larger one'
         )
     return ''
+
+
+def _of_clock(recording: Recording) -> str:
+    if not recording.unknown_times:
+        return ''
+    return (
+        f'{recording.unknown_times}; as it is, gaps are not seen, and no angle of a unit that is '
+        'followed is assured'
+    )

@@ -48,6 +48,8 @@ class Recording:
     """s"""
     time_origin: int = 0
     """ns of the Unix epoch at which `time` is 0, where that is known"""
+    unknown_times: str = ''
+    """Why there are no times although there seems to be a clock, so that there may be gaps"""
     clock: str = ''
     """Of a bag, what `time` is by: ``stamp`` or ``log``, topic by topic where they differ"""
     name: str = 'recording'

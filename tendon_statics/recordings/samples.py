@@ -43,15 +43,14 @@ class Samples:
 
 
 def _times(recording: Recording) -> list[tuple[float, float]]:
-    """The time of each sample in s twice: for gaps, where one without is at that before, as is."""
+    """The present at each sample in s, and when it was measured; NaN where that is not known.
+
+    Where a recording has a clock, and a sample no time, there may have been a gap before it. One
+    without a clock is taken to have none.
+    """
     if recording.time is None:
-        return [(0.0, math.nan)] * len(recording)
-    measured = recording.time.tolist()
-    present, now = [], 0.0
-    for time in measured:
-        now = now if math.isnan(time) else time
-        present.append(now)
-    return list(zip(present, measured, strict=True))
+        return [(math.nan if recording.unknown_times else 0.0, math.nan)] * len(recording)
+    return [(time, time) for time in recording.time.tolist()]
 
 
 def _faults(recording: Recording, settings: Settings) -> list[str]:

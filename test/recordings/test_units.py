@@ -26,7 +26,6 @@ def test_a_quantity_is_read_with_each_of_its_units(quantity):
         ('bend_angle °', 'bend_angle or'),
         ('pressure, psi', 'pressure or'),
         ('pressure in MPa', r'pressure \[MPa\]'),
-        ('time/ms', r'time \[ms\]'),
         ('Tension_L', 'tension_l or'),
         ('TensionS [mN]', r'tension_s \[mN\]'),
         ('bend angle', 'bend_angle or'),

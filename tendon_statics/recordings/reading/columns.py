@@ -10,10 +10,18 @@ from ..errors import RecordingError
 from ..recording import QUANTITIES
 from .table_options import TableOptions, unit_factor
 from .time_column import TimeColumn, find_time
-from .units import parse_column, split_title
+from .time_titles import (
+    parse_time_title,
+    place_of_date,
+    place_of_nanoseconds,
+    time_unit,
+)
+from .units import UNITS, parse_column, split_title
 
 _ONLY_NUMBERS = re.compile(r'[-+.,;|\s\deE]*\d[-+.,;|\s\deE]*')
 """One, or several in a line whose separator the titles do not tell"""
+
+_ROUND_BRACKETS = re.compile(r'(.*?)\s*\(\s*([^()]*?)\s*\)')
 
 REQUIRED = ('tension_l', 'tension_s')
 
@@ -38,6 +46,8 @@ class Columns(NamedTuple):
     """By quantity; without the time"""
     time: TimeColumn | None = None
     state: int | None = None
+    others: tuple[int, ...] = ()
+    """Places of what is left alone"""
     in_newtons: bool = False
     """Whether the tensions are in N for certain, since their units are said"""
 
@@ -72,12 +82,15 @@ def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> 
                 f'there is no column {name}; {", ".join(REQUIRED)} are needed, ' + _there(titles)
             )
     for quantity, unit in options.units.items():
-        if quantity in found:
+        if quantity in found and quantity != 'time':
             found[quantity] = _with_unit(quantity, unit, found[quantity], titles)
     time = _time(found.pop('time', None), titles, options)
     state = found.pop('state', None)
     in_newtons = all(found[name].has_unit for name in REQUIRED) or set(READINGS) <= set(titles)
-    return Columns(found, time, None if state is None else state.place, in_newtons)
+    used = {column.place for column in found.values()} | {*(time.places if time else ())}
+    used |= set() if state is None else {state.place}
+    others = tuple(place for place in range(len(titles)) if place not in used)
+    return Columns(found, time, None if state is None else state.place, others, in_newtons)
 
 
 def _there(titles: Sequence[str]) -> str:
@@ -100,17 +113,31 @@ def _named(quantity: str, title: str, titles: Sequence[str]) -> Column:
     RecordingError
         If there is none, or more than one.
     """
-    places = [place for place, name in enumerate(titles) if title in (name, split_title(name)[0])]
+    places = [place for place, name in enumerate(titles) if title == name]
+    places = places or [
+        place for place, name in enumerate(titles) if title == _split(name, quantity)[0]
+    ]
     if len(places) != 1:
         raise RecordingError(
             f'there is no column {title!r} to be {quantity}; there are: {", ".join(titles)}'
             if not places
             else f'there are {len(places)} columns {title!r}'
         )
-    unit = split_title(titles[places[0]])[1]
+    unit = _split(titles[places[0]], quantity)[1]
     if unit is None or quantity == 'state':
         return Column(places[0], 1.0)
     return Column(places[0], unit_factor(quantity, unit), has_unit=True)
+
+
+def _split(title: str, quantity: str) -> tuple[str, str | None]:
+    """Split a title into name and unit, which here may stand in round brackets too."""
+    name, unit = split_title(title)
+    round_ones = _ROUND_BRACKETS.fullmatch(title.strip())
+    if unit is not None or round_ones is None or quantity == 'state':
+        return name, unit
+    name, unit = round_ones.groups()
+    is_unit = time_unit(unit) is not None if quantity == 'time' else unit in UNITS[quantity]
+    return (name, unit) if is_unit else (title.strip(), None)
 
 
 def _with_unit(quantity: str, unit: str, column: Column, titles: Sequence[str]) -> Column:
@@ -132,10 +159,31 @@ def _with_unit(quantity: str, unit: str, column: Column, titles: Sequence[str]) 
 def _time(
     column: Column | None, titles: Sequence[str], options: TableOptions
 ) -> TimeColumn | None:
-    unit = options.units.get('time')
+    """Return where the time stands, by an option, by its name, or by what exporters call it.
+
+    Raises
+    ------
+    RecordingError
+        If its title has another unit than the option, or one that is none.
+    """
     if column is None:
         found = find_time(titles)
-        return found if found is None or unit is None else found._replace(unit=unit)
-    if column.has_unit:
-        unit = unit or split_title(titles[column.place])[1]
-    return TimeColumn(column.place, titles[column.place], unit)
+    else:
+        title = titles[column.place].strip()
+        parsed = parse_time_title(title)
+        found = TimeColumn(
+            column.place,
+            title,
+            time_unit(_split(title, 'time')[1] or '') or (parsed.unit if parsed else None),
+            place_of_nanoseconds(titles, column.place),
+            place_of_date(titles),
+        )
+    said = options.units.get('time')
+    if found is None or said is None:
+        return found
+    unit = time_unit(said)
+    if found.unit not in (None, unit):
+        raise RecordingError(
+            f'the unit of {found.title!r} stands in its title, and --units says {said}'
+        )
+    return found._replace(unit=unit)

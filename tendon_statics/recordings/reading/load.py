@@ -91,6 +91,7 @@ def _timed(recording: Recording, options: TableOptions | None) -> Recording:
     return dataclasses.replace(
         recording,
         time=np.arange(len(recording)) / options.rate,
+        unknown_times='',
         notes=(*recording.notes, f'time: {options.rate:g} rows per second, as was said'),
     )
 

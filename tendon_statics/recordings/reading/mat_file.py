@@ -12,6 +12,7 @@ from ..errors import RecordingError, one_line
 from ..libraries import needed
 from ..progress import Progress, unseen
 from ..recording import Floats, Recording
+from .clock_like import behaves_like_clock, may_be_clock
 from .columns import find_columns
 from .table import table_recording
 from .table_options import TableOptions
@@ -44,7 +45,16 @@ def load_mat(
             raise RecordingError(f'the variable {names[place]} holds no column of numbers')
         return np.atleast_1d(values.squeeze()).astype(np.float64)
 
+    def is_clock(place: int) -> bool:
+        try:
+            values = numbers(place)
+        except RecordingError:
+            return False
+        return len(values) == count and behaves_like_clock(values)
+
     time = columns.time
+    count = len(numbers(columns.numbers['tension_l'].place))
+    others = [at for at in (() if time else columns.others) if may_be_clock(titles[at])]
     state = None
     if columns.state is not None:
         state = [str(value) for value in np.atleast_1d(arrays[names[columns.state]]).tolist()]
@@ -53,6 +63,7 @@ def load_mat(
         columns,
         {name: numbers(column.place) * column.factor for name, column in columns.numbers.items()},
         None if time is None else times_of(time, numbers(time.place)),
+        next((titles[at] for at in others if is_clock(at)), None),
         state,
     )
 

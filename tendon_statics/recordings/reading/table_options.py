@@ -9,6 +9,7 @@ from collections.abc import Mapping
 
 from ..errors import RecordingError
 from ..recording import QUANTITIES
+from .time_titles import time_unit
 from .units import UNITS
 
 SEPARATORS = {'comma': ',', 'semicolon': ';', 'tab': '\t', 'bar': '|', 'space': ' '}
@@ -93,6 +94,8 @@ def unit_factor(quantity: str, unit: str) -> float:
         If it is no unit of that quantity.
     """
     units = UNITS[quantity]
+    if quantity == 'time':
+        unit = time_unit(unit) or unit
     if unit not in units:
         raise RecordingError(
             f'the unit of {quantity} is {unit!r}, which is not known; there are {", ".join(units)}'

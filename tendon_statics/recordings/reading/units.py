@@ -6,11 +6,12 @@ import math
 import re
 
 from ..errors import RecordingError
+from .time_titles import time_unit
 
 _FORCE = {'N': 1.0, 'mN': 1e-3, 'kN': 1e3, 'gf': 9.80665e-3, 'kgf': 9.80665}
 _ANGLE = {'rad': 1.0, 'mrad': 1e-3, 'deg': math.radians(1.0), '°': math.radians(1.0)}
 UNITS = {
-    'time': {'s': 1.0, 'ms': 1e-3, 'us': 1e-6, 'ns': 1e-9},
+    'time': {'s': 1.0, 'ms': 1e-3, 'us': 1e-6, 'ns': 1e-9, 'min': 60.0, 'h': 3600.0, 'd': 86400.0},
     'tension_l': _FORCE,
     'tension_s': _FORCE,
     'bend_angle': _ANGLE,
@@ -25,8 +26,6 @@ UNITS = {
 _FOREIGN_FORCE = 'newton newtons g kg lb lbs lbf oz ozf'
 _FOREIGN_ANGLE = 'degree degrees radian radians milliradians'
 _FOREIGN_UNITS = {
-    'time': 'sec secs second seconds msec millis milliseconds usec micros microseconds nsec nanos '
-    'nanoseconds minutes hours',
     **dict.fromkeys(('tension_l', 'tension_s', 'tip_force_x', 'tip_force_z'), _FOREIGN_FORCE),
     **dict.fromkeys(('bend_angle', 'base_tilt', 'base_roll'), _FOREIGN_ANGLE),
     'pressure': 'hPa pascal pascals kilopascals megapascals bar mbar psi atm torr mmHg',
@@ -59,9 +58,12 @@ def parse_column(title: str) -> tuple[str, float]:
         units = UNITS[name]
         if unit is None:
             return name, 1.0
+        if name == 'time':
+            unit = time_unit(unit) or unit
         if unit not in units:
             raise RecordingError(
                 f'the unit of {name} is {unit!r}, which is not known; there are {", ".join(units)}'
+                + (' (--columns time=TITLE names another column)' if name == 'time' else '')
             )
         return name, units[unit]
     for quantity, pattern in _MISWRITTEN.items():
@@ -95,4 +97,7 @@ def _miswritten(quantity: str) -> re.Pattern[str]:
     return re.compile(rf'{name}(?:|\W*[(\[{{<].*|\W*°.*|{unit})', re.IGNORECASE)
 
 
-_MISWRITTEN = {quantity: _miswritten(quantity) for quantity in (*UNITS, 'state')}
+_MISWRITTEN = {
+    quantity: _miswritten(quantity) for quantity in (*UNITS, 'state') if quantity != 'time'
+}
+"""By quantity, but the time, which is read by many titles"""

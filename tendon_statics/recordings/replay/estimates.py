@@ -86,6 +86,7 @@ def replay(
     if is_filtered and recording.time is None:
         raise RecordingError(
             f'{recording.name}: filtering needs the time of each sample, which is not recorded'
+            + (f': {recording.unknown_times}' if recording.unknown_times else '')
         )
     # The derivatives by the design, on which its part in a deviation rests, are those of one pair.
     is_batch = not unit.remembers and settings.design_uncertainty is None
