@@ -54,10 +54,10 @@ def arm_description(
     arm_file: str | Path,
     frame_id: str = 'base',
     joint_names: Sequence[str] = (),
-    prefix: str = '',
+    prefix: str = 'arm_',
     base_turn: tuple[float, float] | None = None,
 ) -> str:
-    """Expand ``urdf/arm.urdf.xacro``: the links ``unit_1`` and so on, and ``tip``.
+    """Expand ``urdf/arm.urdf.xacro``: the links ``arm_unit_1`` and so on, ``arm_tip``.
 
     Parameters
     ----------
@@ -66,9 +66,9 @@ def arm_description(
     frame_id
         The link that carries the first unit.
     joint_names
-        From the base on; empty: ``joint_1`` and so on.
+        From the base on; empty: ``joint_1`` and so on, after the prefix, as the node names them.
     prefix
-        Before the names of links, and of joints that are not named.
+        Before the names of links.
     base_turn
         As for a unit, of `frame_id`.
 

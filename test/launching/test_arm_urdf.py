@@ -3,7 +3,6 @@
 import dataclasses
 import random
 from itertools import pairwise
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
@@ -61,12 +60,14 @@ def test_joints_and_tip_are_where_the_arm_has_them(seed, tmp_path):
     arm = random_arm(draw)
     robot = ElementTree.fromstring(arm_description(arm_file(tmp_path, arm)))
     angles = tuple(draw.uniform(-stop, stop) for stop in arm.stops)
-    poses = link_poses(robot, {f'joint_{n}': angle for n, angle in enumerate(angles, start=1)})
-    names = [f'unit_{number}' for number in range(1, len(angles) + 1)] + ['tip']
+    poses = link_poses(robot, {f'arm_joint_{n}': angle for n, angle in enumerate(angles, start=1)})
+    names = [f'arm_unit_{number}' for number in range(1, len(angles) + 1)] + ['arm_tip']
     for name, (x, z) in zip(names, joint_centres(arm, angles), strict=True):
         assert poses[name][0] == pytest.approx([x, 0.0, z], abs=1e-15)
     tilt = tip_pose(arm, angles).tilt
-    assert poses['tip'][1].apply([0.0, 0.0, 1.0]) == pytest.approx([np.sin(tilt), 0, np.cos(tilt)])
+    assert poses['arm_tip'][1].apply([0.0, 0.0, 1.0]) == pytest.approx(
+        [np.sin(tilt), 0, np.cos(tilt)]
+    )
 
 
 def test_the_tip_is_that_of_the_tracker():
@@ -74,9 +75,9 @@ def test_the_tip_is_that_of_the_tracker():
     tracker = ArmTracker(arm)
     state = tracker.update({'l_mid': 1.0, 's_mid': 1.0, 'l_tip': 1.0, 's_tip': 2.2})
     robot = ElementTree.fromstring(arm_description(FILE))
-    angles = {f'joint_{n}': angle for n, angle in enumerate(state.bend_angles, start=1)}
+    angles = {f'arm_joint_{n}': angle for n, angle in enumerate(state.bend_angles, start=1)}
     assert min(angles.values()) != max(angles.values())
-    position, _ = link_poses(robot, angles)['tip']
+    position, _ = link_poses(robot, angles)['arm_tip']
     assert position == pytest.approx([state.tip.x, 0.0, state.tip.z], abs=1e-15)
 
 
@@ -111,7 +112,7 @@ def test_a_design_file_is_found_from_where_the_arm_file_is(tmp_path, monkeypatch
     robot = ElementTree.fromstring(arm_description('arm.yaml'))
     mass = load_arm('arm.yaml').designs[0].mass
     assert float(robot.find('link/inertial/mass').get('value')) == mass
-    assert vector(robot.find("joint[@name='tip_end']/origin"))[2] == 0.02
+    assert vector(robot.find("joint[@name='arm_tip_end']/origin"))[2] == 0.02
 
 
 def test_names_are_those_that_are_given():
