@@ -11,9 +11,8 @@ import numpy as np
 
 from ..errors import RecordingError
 from ..progress import Progress, unseen
-from ..recording import Recording
 from .columns import Column, Columns, find_columns
-from .table import table_recording
+from .table import Table
 from .table_options import TableOptions
 from .text_form import recognise
 from .text_lines import TextForm, bare
@@ -30,7 +29,7 @@ MOST_SHOWN = 80
 
 def load_csv(
     path: Path, options: TableOptions | None = None, progress: Progress = unseen
-) -> Recording:
+) -> Table:
     """Read a text file with a table whose titles name the columns, as `load_recording` does.
 
     Empty lines and comments are left alone; an empty field is NaN. A line that is not as long as
@@ -44,7 +43,7 @@ def load_csv(
     rows = _Rows(form, find_columns(form.titles, options))
     for number, line in progress(form.rows, 'reading'):
         rows.take(number, line)
-    return rows.recording(path.name, (*notes, *form.notes))
+    return rows.table(path.name, (*notes, *form.notes))
 
 
 class _NoNumberError(ValueError):
@@ -101,7 +100,7 @@ class _Rows:
         if self._columns.state is not None:
             self._states.append(fields[self._columns.state])
 
-    def recording(self, name: str, notes: Sequence[str]) -> Recording:
+    def table(self, name: str, notes: Sequence[str]) -> Table:
         """Return what was read.
 
         Raises
@@ -109,7 +108,7 @@ class _Rows:
         RecordingError
             If that is no row.
         """
-        if not self._values['tension_l']:
+        if not any(self._values.values()):
             why = f'; {self._damage[0]}' if self._damage else ''
             raise RecordingError(f'there is no row of tensions in it{why}')
         column, times = self._columns.time, None
@@ -118,7 +117,7 @@ class _Rows:
         elif column is not None:
             rest = None if column.nanoseconds is None else np.array(self._nanoseconds)
             times = times_of(column, np.array(self._times), rest)
-        return table_recording(
+        return Table(
             name,
             self._columns,
             {quantity: np.array(values) for quantity, values in self._values.items()},

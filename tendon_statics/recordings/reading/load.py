@@ -10,7 +10,9 @@ import numpy as np
 from ..errors import RecordingError, one_line
 from ..progress import Progress, unseen
 from ..recording import Recording
+from ..session import Own
 from .bag_folder import BAG_ENDINGS, is_bag_file
+from .table import Table
 from .table_options import TableOptions
 from .topics import BagTopics
 
@@ -69,14 +71,14 @@ def load_recording(
             from .bag import load_bag
 
             return load_bag(path, topics or BagTopics(), progress)
-        return _timed(_table(path, table, progress), table)
+        return _timed(_table(path, table, progress).of_unit(), table)
     except RecordingError as error:
         raise RecordingError(f'{path}: {one_line(error)}') from None
     except OSError as error:
         raise RecordingError(f'{path}: it cannot be read: {error.strerror or error}') from None
 
 
-def _timed(recording: Recording, options: TableOptions | None) -> Recording:
+def _timed(recording: Own, options: TableOptions | None) -> Own:
     """Give the rows of a table without times those that its rate makes.
 
     Raises
@@ -100,7 +102,7 @@ def is_recording_file(path: Path) -> bool:
     return path.suffix in ENDINGS or is_bag_file(path)
 
 
-def _table(path: Path, options: TableOptions | None, progress: Progress) -> Recording:
+def _table(path: Path, options: TableOptions | None, progress: Progress) -> Table:
     if path.suffix == '.parquet':
         from .parquet_file import load_parquet
 

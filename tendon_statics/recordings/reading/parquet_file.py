@@ -10,9 +10,9 @@ import numpy as np
 from ..errors import RecordingError
 from ..libraries import needed
 from ..progress import Progress, unseen
-from ..recording import Floats, Recording
+from ..session import Floats
 from .columns import find_columns
-from .table import table_recording
+from .table import Table
 from .table_options import TableOptions
 from .time_column import (
     TimeColumn,
@@ -25,7 +25,7 @@ from .time_column import (
 
 def load_parquet(
     path: Path, options: TableOptions | None = None, progress: Progress = unseen
-) -> Recording:
+) -> Table:
     """Read a Parquet file, as `load_recording` does; a missing value is NaN.
 
     A row group that cannot be read is damage; without the file's end nothing can.
@@ -86,7 +86,7 @@ def load_parquet(
     state = None
     if columns.state is not None:
         state = [str(value or '') for value in table[titles[columns.state]].to_pylist()]
-    return table_recording(
+    return Table(
         path.name,
         columns,
         {name: numbers(column.place) * column.factor for name, column in columns.numbers.items()},

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import RecordingError
-from ..recording import Floats
-from .units import UNITS, split_title
+from ..session import Floats
+from .units import TIME, split_title
 
 TITLES = ('%time', 'timestamp', 'stamp', 'header.stamp', 'field.header.stamp', 't', '__time')
 """Titles of times besides ``time``, of which the first that is there counts; a leading path, and a
@@ -63,7 +63,7 @@ def find_time(titles: Sequence[str]) -> TimeColumn | None:
         if match:
             name, unit = match['name'], match['unit'].lower()
         for known in TITLES:
-            if _means(name, known) and (unit is None or unit in UNITS['time']):
+            if _means(name, known) and (unit is None or unit in TIME.units):
                 found.setdefault(known, TimeColumn(place, title, unit))
     return next((found[title] for title in TITLES if title in found), None)
 
@@ -96,7 +96,7 @@ def times_of(column: TimeColumn, values: Floats, nanoseconds: Floats | None = No
             note = f'time: the column {column.title}, in {unit}{since}'
     elif column.title.strip() != f'time [{unit}]':
         note = f'time: the column {column.title}, in {unit}'
-    factor = UNITS['time'][unit]
+    factor = TIME.units[unit]
     # Dividing by a whole number is exact where multiplying by its inverse is not.
     seconds = values / round(1.0 / factor) if factor < 1.0 else values
     if nanoseconds is not None:
