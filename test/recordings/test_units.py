@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from designs import PRELIMINARY
 
-from tendon_statics import Recording, RecordingError
+from tendon_statics import Arm, ArmUnit, Cable, Recording, RecordingError
 from tendon_statics.recordings.reading.units import OF_UNIT, of_arm
 from tendon_statics.recordings.replay.estimates import replay
 
@@ -54,8 +54,14 @@ def test_the_columns_of_a_replay_are_read_as_what_they_are():
         assert OF_UNIT.parse(title) == (title, 1.0)
 
 
+def arm_of(*cables):
+    """An arm of two units with cables of these names, to l and to s in turn."""
+    pulls = [Cable(name, 'ls'[number % 2], 2) for number, name in enumerate(cables)]
+    return Arm([ArmUnit(PRELIMINARY, 0.02)] * 2, pulls)
+
+
 def test_cables_of_an_arm_are_read_by_their_names_and_not_overlooked():
-    arm = of_arm(('l_mid', 's_mid', 'l1'), 2)
+    arm = of_arm(arm_of('l_mid', 's_mid', 'l1', 's1'))
     assert arm.parse('l_mid [mN]') == ('l_mid', 1e-3)
     assert arm.parse('bend_angle_2 [mrad]') == ('bend_angle_2', 1e-3)
     assert arm.parse('l1 raw') == ('l1 raw', 1.0)
@@ -64,4 +70,4 @@ def test_cables_of_an_arm_are_read_by_their_names_and_not_overlooked():
         with pytest.raises(RecordingError, match=f'overlooked: write .*{hint}'):
             arm.parse(title)
     with pytest.raises(RecordingError, match='a cable of the arm is called time'):
-        of_arm(('time', 's'), 1)
+        of_arm(arm_of('time', 's'))

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import NamedTuple
 
+from ...physics.arm import Arm
 from ..errors import RecordingError
 from ..session import OF_LOAD
 
@@ -139,7 +140,7 @@ OF_UNIT = Quantities(
 """What a table of a single unit may hold"""
 
 
-def of_arm(cables: tuple[str, ...], joints: int) -> Quantities:
+def of_arm(arm: Arm) -> Quantities:
     """Return what a table of an arm may hold: a tension for each cable, by its name.
 
     And the measured bend angles, ``bend_angle_1`` that of the joint at the base.
@@ -149,7 +150,8 @@ def of_arm(cables: tuple[str, ...], joints: int) -> Quantities:
     RecordingError
         If a cable is called as another quantity is.
     """
-    angles = tuple(f'bend_angle_{number}' for number in range(1, joints + 1))
+    cables = arm.cable_names
+    angles = tuple(f'bend_angle_{number}' for number in range(1, len(arm.units) + 1))
     others = {'time': TIME, **dict.fromkeys(angles, ANGLE), **_LOAD}
     for cable in cables:
         if cable in others:
