@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from ..estimation.settings import MANY_WEIGHTS
 from ..physics import JointDesign
 from ..tensions.watch import Plausibility
-from .recording import Floats, Recording
+from .recording import Recording
+from .session import Floats
 
 _ALL_BELIEVED = Plausibility()
 

@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from ..errors import RecordingError
 from ..progress import Progress, unseen
-from ..recording import OF_LOAD, Recording
+from ..recording import Recording
+from ..session import OF_LOAD
 from .bag_beside import default_beside, find_beside, named_beside
 from .bag_storage import END_OF_TIME, Message, Messages, read_messages
 from .bag_tensions import find_tensions, tension_samples

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ..errors import RecordingError
-from ..recording import Floats
+from ..session import Floats
 from .time_column import TimeColumn, Times, is_moment, times_of_moments
 
 _COUNTERS = (

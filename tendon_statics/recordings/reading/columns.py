@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ..errors import RecordingError
-from ..recording import QUANTITIES
-from .table_options import TableOptions, unit_factor
+from .table_options import TableOptions
 from .time_column import TimeColumn, find_time
 from .time_titles import (
     parse_time_title,
@@ -16,17 +15,12 @@ from .time_titles import (
     place_of_nanoseconds,
     time_unit,
 )
-from .units import UNITS, parse_column, split_title
+from .units import Quantities, split_title
 
 _ONLY_NUMBERS = re.compile(r'[-+.,;|\s\deE]*\d[-+.,;|\s\deE]*')
 """One, or several in a line whose separator the titles do not tell"""
 
 _ROUND_BRACKETS = re.compile(r'(.*?)\s*\(\s*([^()]*?)\s*\)')
-
-REQUIRED = ('tension_l', 'tension_s')
-
-READINGS = ('reading_l', 'reading_s')
-"""Columns of a replay: what was recorded, where a gain and bias made tensions in N of it"""
 
 
 class Column(NamedTuple):
@@ -61,51 +55,56 @@ def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> 
         If a tension has no column, a quantity has two, or a unit is not known.
     """
     options = options or TableOptions()
+    quantities = options.quantities
     found: dict[str, Column] = {}
     for quantity, title in options.columns.items():
-        found[quantity] = _named(quantity, title, titles)
+        found[quantity] = _named(quantity, title, titles, quantities)
     named = {column.place for column in found.values()}
     by_itself: set[str] = set()
     for place, title in enumerate(titles):
         if place in named or split_title(title)[0] in options.columns:
             continue
-        name, factor = parse_column(title)
-        if name not in (*QUANTITIES, 'state') or name in options.columns:
+        name, factor = quantities.parse(title)
+        if name not in quantities.kinds or name in options.columns:
             continue
         if name in by_itself:
             raise RecordingError(f'there are two columns of {name}')
         by_itself.add(name)
         found[name] = Column(place, factor, split_title(title)[1] is not None)
-    for name in REQUIRED:
+    needed = quantities.required
+    for name in needed:
         if name not in found:
             raise RecordingError(
-                f'there is no column {name}; {", ".join(REQUIRED)} are needed, ' + _there(titles)
+                f'there is no column {name}; {", ".join(needed)} are needed, '
+                + _there(titles, needed)
             )
     for quantity, unit in options.units.items():
         if quantity in found and quantity != 'time':
-            found[quantity] = _with_unit(quantity, unit, found[quantity], titles)
+            factor = quantities.factor(quantity, unit)
+            found[quantity] = _with_unit(unit, factor, found[quantity], titles)
     time = _time(found.pop('time', None), titles, options)
     state = found.pop('state', None)
-    in_newtons = all(found[name].has_unit for name in REQUIRED) or set(READINGS) <= set(titles)
+    in_newtons = all(found[name].has_unit for name in needed)
+    in_newtons = in_newtons or set(quantities.readings) <= set(titles)
     used = {column.place for column in found.values()} | {*(time.places if time else ())}
     used |= set() if state is None else {state.place}
     others = tuple(place for place in range(len(titles)) if place not in used)
     return Columns(found, time, None if state is None else state.place, others, in_newtons)
 
 
-def _there(titles: Sequence[str]) -> str:
+def _there(titles: Sequence[str], needed: Sequence[str]) -> str:
     """Say which columns there are instead, and what to do."""
     there = [title for title in titles if title]
     if there and all(_ONLY_NUMBERS.fullmatch(title) for title in there):
         return (
             'but the first line has numbers in place of titles; put titles above it, such as '
-            'tension_l,tension_s'
+            + ','.join(needed)
         )
-    missing = ','.join(f'{name}=TITLE' for name in REQUIRED if name not in there)
+    missing = ','.join(f'{name}=TITLE' for name in needed if name not in there)
     return f'there are: {", ".join(there) or "none"} (--columns {missing} names them)'
 
 
-def _named(quantity: str, title: str, titles: Sequence[str]) -> Column:
+def _named(quantity: str, title: str, titles: Sequence[str], quantities: Quantities) -> Column:
     """Return the column that an option names.
 
     Raises
@@ -115,7 +114,9 @@ def _named(quantity: str, title: str, titles: Sequence[str]) -> Column:
     """
     places = [place for place, name in enumerate(titles) if title == name]
     places = places or [
-        place for place, name in enumerate(titles) if title == _split(name, quantity)[0]
+        place
+        for place, name in enumerate(titles)
+        if title == _split(name, quantity, quantities)[0]
     ]
     if len(places) != 1:
         raise RecordingError(
@@ -123,24 +124,25 @@ def _named(quantity: str, title: str, titles: Sequence[str]) -> Column:
             if not places
             else f'there are {len(places)} columns {title!r}'
         )
-    unit = _split(titles[places[0]], quantity)[1]
-    if unit is None or quantity == 'state':
+    unit = _split(titles[places[0]], quantity, quantities)[1]
+    if unit is None or not quantities.has_units(quantity):
         return Column(places[0], 1.0)
-    return Column(places[0], unit_factor(quantity, unit), has_unit=True)
+    return Column(places[0], quantities.factor(quantity, unit), has_unit=True)
 
 
-def _split(title: str, quantity: str) -> tuple[str, str | None]:
+def _split(title: str, quantity: str, quantities: Quantities) -> tuple[str, str | None]:
     """Split a title into name and unit, which here may stand in round brackets too."""
     name, unit = split_title(title)
     round_ones = _ROUND_BRACKETS.fullmatch(title.strip())
-    if unit is not None or round_ones is None or quantity == 'state':
+    if unit is not None or round_ones is None or not quantities.has_units(quantity):
         return name, unit
     name, unit = round_ones.groups()
-    is_unit = time_unit(unit) is not None if quantity == 'time' else unit in UNITS[quantity]
+    known = time_unit(unit) is not None if quantity == 'time' else None
+    is_unit = unit in quantities.kinds[quantity].units if known is None else known
     return (name, unit) if is_unit else (title.strip(), None)
 
 
-def _with_unit(quantity: str, unit: str, column: Column, titles: Sequence[str]) -> Column:
+def _with_unit(unit: str, factor: float, column: Column, titles: Sequence[str]) -> Column:
     """Give a column the unit that an option says.
 
     Raises
@@ -148,7 +150,6 @@ def _with_unit(quantity: str, unit: str, column: Column, titles: Sequence[str]) 
     RecordingError
         If its title has another.
     """
-    factor = unit_factor(quantity, unit)
     if column.has_unit and column.factor != factor:
         raise RecordingError(
             f'the unit of {titles[column.place]!r} stands in its title, and --units says {unit}'
@@ -174,7 +175,8 @@ def _time(
         found = TimeColumn(
             column.place,
             title,
-            time_unit(_split(title, 'time')[1] or '') or (parsed.unit if parsed else None),
+            time_unit(_split(title, 'time', options.quantities)[1] or '')
+            or (parsed.unit if parsed else None),
             place_of_nanoseconds(titles, column.place),
             place_of_date(titles),
         )

@@ -11,10 +11,9 @@ import numpy as np
 
 from ..errors import RecordingError
 from ..progress import Progress, unseen
-from ..recording import Recording
 from .clock_like import Candidate, may_be_clock
 from .columns import Column, Columns, find_columns
-from .table import table_recording
+from .table import Table
 from .table_options import TableOptions
 from .text_form import recognise
 from .text_lines import DECIMAL_COMMA, TextForm, bare, no_utf_8
@@ -31,7 +30,7 @@ MOST_SHOWN = 80
 
 def load_csv(
     path: Path, options: TableOptions | None = None, progress: Progress = unseen
-) -> Recording:
+) -> Table:
     """Read a text file with a table whose titles name the columns, as `load_recording` does.
 
     Empty lines and comments are left alone; an empty field is NaN. A line that is not as long as
@@ -45,7 +44,7 @@ def load_csv(
     rows = _Rows(form, find_columns(form.titles, options))
     for number, line in progress(form.rows, 'reading'):
         rows.take(number, line)
-    return rows.recording(path.name, (*notes, *form.notes))
+    return rows.table(path.name, (*notes, *form.notes))
 
 
 class _FieldError(ValueError):
@@ -114,7 +113,7 @@ class _Rows:
             if candidate.take(fields[place], self._plain)
         }
 
-    def recording(self, name: str, notes: Sequence[str]) -> Recording:
+    def table(self, name: str, notes: Sequence[str]) -> Table:
         """Return what was read.
 
         Raises
@@ -122,14 +121,16 @@ class _Rows:
         RecordingError
             If that is no row.
         """
-        if not self._values['tension_l']:
+        if not any(self._values.values()):
             why = f'; {self._damage[0]}' if self._damage else ''
             raise RecordingError(f'there is no row of tensions in it{why}')
-        return table_recording(
+        times, clock_like = self._clock()
+        return Table(
             name,
             self._columns,
             {quantity: np.array(values) for quantity, values in self._values.items()},
-            *self._clock(),
+            times,
+            clock_like,
             None if self._columns.state is None else self._states,
             damage=self._damage,
             notes=notes,

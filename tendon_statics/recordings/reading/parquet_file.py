@@ -11,10 +11,10 @@ import numpy as np
 from ..errors import RecordingError
 from ..libraries import needed
 from ..progress import Progress, unseen
-from ..recording import Floats, Recording
+from ..session import Floats
 from .clock_like import behaves_like_clock, may_be_clock
 from .columns import find_columns
-from .table import table_recording
+from .table import Table
 from .table_options import TableOptions
 from .time_column import (
     TimeColumn,
@@ -27,7 +27,7 @@ from .time_column import (
 
 def load_parquet(
     path: Path, options: TableOptions | None = None, progress: Progress = unseen
-) -> Recording:
+) -> Table:
     """Read a Parquet file, as `load_recording` does; a missing value is NaN.
 
     A row group that cannot be read is damage; without the file's end nothing can.
@@ -92,7 +92,7 @@ def load_parquet(
     state = None
     if columns.state is not None:
         state = [str(value or '') for value in table[titles[columns.state]].to_pylist()]
-    return table_recording(
+    return Table(
         path.name,
         columns,
         {name: numbers(column.place) * column.factor for name, column in columns.numbers.items()},

@@ -13,7 +13,7 @@ from .columns import find_columns
 from .labview import LABVIEW, labview_form
 from .table_options import SEPARATORS, TableOptions
 from .text_lines import DECIMAL_COMMA, Line, TextForm, no_utf_8, separator_name, split
-from .units import UNITS, split_title
+from .units import Quantities, split_title
 
 COMMENTS = ('#', '%')
 """How a line begins that is ignored, unless it has the titles"""
@@ -49,7 +49,7 @@ def recognise(content: bytes, options: TableOptions) -> TextForm:
     notes = []
     if separator != ',':
         notes.append(f'columns are separated by {separator_name(separator)}')
-    titles, rows, said = _with_units_row(titles, rows[at:], separator)
+    titles, rows, said = _with_units_row(titles, rows[at:], separator, options.quantities)
     if rows and _ends_with_separator(rows[0][1], separator, len(titles)):
         titles = [*titles, '']
     decimal = _decimal(rows, separator, titles, options)
@@ -193,7 +193,7 @@ def _header(number: int, line: bytes, separator: str, *, as_comment: bool) -> li
 
 
 def _with_units_row(
-    titles: list[str], rows: list[Line], separator: str
+    titles: list[str], rows: list[Line], separator: str, quantities: Quantities
 ) -> tuple[list[str], list[Line], list[str]]:
     """Take a row of units below the titles into these."""
     try:
@@ -202,14 +202,14 @@ def _with_units_row(
         return titles, rows, []
     names = [split_title(title) for title in titles]
     known = [
-        unit in UNITS[name] if name in UNITS else True
+        unit in quantities.kinds[name].units if quantities.has_units(name) else True
         for (name, _), unit in zip(names, units, strict=False)
     ]
     numbers = any(field.replace('.', '').replace(',', '').strip('-+').isdigit() for field in units)
     if len(units) != len(titles) or numbers or not all(known) or not any(units):
         return titles, rows, []
     with_units = [
-        f'{name} [{unit}]' if name in UNITS and given is None else title
+        f'{name} [{unit}]' if quantities.has_units(name) and given is None else title
         for title, (name, given), unit in zip(titles, names, units, strict=True)
     ]
     return with_units, rows[1:], [f'units: those of line {rows[0][0]}']

@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import RecordingError
-from ..recording import Floats
+from ..session import Floats
 from .time_titles import RANK_OF_STAMPS, parse_time_title, place_of_date, place_of_nanoseconds
-from .units import UNITS
+from .units import TIME
 
 _EPOCHS = ((1e17, 1e19, 'ns'), (1e14, 1e17, 'us'), (1e11, 1e14, 'ms'))
 """Between which a time, if since 1970, is in that unit: in a larger one it would lie beyond the
@@ -82,7 +82,7 @@ def find_time(titles: Sequence[str]) -> TimeColumn | None:
         title, unit = strange[0]
         raise RecordingError(
             f'the column {title!r} looks like the time, in {unit!r}, which is no unit of it; '
-            f'there are {", ".join(UNITS["time"])}: --columns time="{title}" --units time=UNIT '
+            f'there are {", ".join(TIME.units)}: --columns time="{title}" --units time=UNIT '
             'says which, --columns time=TITLE names another column'
         )
     return min(found, key=lambda of: of[:2])[2] if found else None
@@ -104,7 +104,7 @@ def times_of(column: TimeColumn, values: Floats, nanoseconds: Floats | None = No
             note = f'time: the column {column.title}, in {unit}{since}'
     elif column.title != f'time [{unit}]':
         note = f'time: the column {column.title}, in {unit}'
-    factor = UNITS['time'][unit]
+    factor = TIME.units[unit]
     # Dividing by a whole number is exact where multiplying by its inverse is not.
     seconds = values / round(1.0 / factor) if factor < 1.0 else values * factor
     seconds = np.where(np.isfinite(seconds), seconds, np.nan)

@@ -14,7 +14,8 @@ from ..libraries import needed
 from ..progress import Progress, unseen
 from ..reading.bag_beside import DEFAULT_TOPICS
 from ..reading.bag_values import ARRAY, NUMBER, TEXT
-from ..recording import Floats, Recording
+from ..recording import Recording
+from ..session import Floats
 from .result import Replay
 
 BOOLEAN = 'std_msgs/msg/Bool'

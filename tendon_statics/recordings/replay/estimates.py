@@ -18,8 +18,9 @@ from ...physics.batch import solve_batch
 from ...tensions.reason import ReadingError, Reason
 from ..errors import RecordingError
 from ..progress import Progress, unseen
-from ..recording import Floats, Recording
+from ..recording import Recording
 from ..samples import Samples
+from ..session import Floats
 from .result import VALID, Replay
 
 CHUNK = 20_000

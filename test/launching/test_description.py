@@ -1,4 +1,4 @@
-"""`unit_description`: the URDF for robot_state_publisher, with the names of the estimator."""
+"""`unit_description` and `arm_description`: URDF with the names of the nodes."""
 
 import math
 import sys
@@ -8,8 +8,8 @@ import pytest
 
 from tendon_statics import default_design_path
 from tendon_statics.launching.base_turn import BaseTurnError, load_base_turn
+from tendon_statics.launching.description import DescriptionError, unit_description
 from tendon_statics.launching.joint_names import JointNames
-from tendon_statics.launching.unit_description import DescriptionError, unit_description
 
 
 def test_it_has_the_names_that_it_is_given(tmp_path):
