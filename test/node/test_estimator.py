@@ -196,7 +196,7 @@ def test_solve_answers_every_regime_and_refuses_bad_input(running):
 def test_solve_latest_gives_the_newest_valid_pair(listener):
     # Reliable, so that not even the first message is lost.
     override = 'qos_overrides./tensions.subscription.reliability:=reliable'
-    with listener.estimator('-p', override, greet=False):
+    with listener.estimator('-p', override):
         nothing = listener.solve_latest()
         assert not nothing.success
         assert 'no valid tensions' in nothing.message
@@ -626,7 +626,7 @@ def test_inputs_are_best_effort_outputs_reliable_and_both_can_be_overridden(list
         'qos_overrides./tensions.subscription.reliability:=reliable',
         'qos_overrides./estimator/regime.publisher.durability:=volatile',
     )
-    with listener.estimator(*(part for rule in overrides for part in ('-p', rule)), greet=False):
+    with listener.estimator(*(part for rule in overrides for part in ('-p', rule))):
         wait_for(
             'the estimator that went to be forgotten',
             lambda: len(listener.get_subscriptions_info_by_topic('/tensions')) == 1,
@@ -739,7 +739,7 @@ def test_a_unit_of_next_to_no_weight_does_not_end_the_node(listener):
 
 def test_every_name_can_be_remapped(listener):
     arguments = ('-r', '__ns:=/left', '-r', 'tensions:=/tensions', '-r', '__node:=joint_1')
-    moved = (f'{own}:=/estimator/{own[2:]}' for own in (f'~/{topic}' for topic in TOPICS))
+    moved = (f'~/{own}:=/estimator/{own}' for own in (*TOPICS, 'get_state'))
     with listener.estimator(*arguments, *(part for rule in moved for part in ('-r', rule))):
         assert listener.answer(*SLIPPING) == 'equilibrium'
         listener.wait_for_node('joint_1', '/left')

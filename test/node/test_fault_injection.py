@@ -55,7 +55,7 @@ def estimator_of(observer, recording, *more: str, kind: str = 'array', reliable=
     arguments = [part for value in values for part in ('-p', value)]
     if reliable:  # so that every message counts
         arguments += reliable_input(kind)
-    with observer.estimator(*arguments, greet=False) as program:
+    with observer.estimator(*arguments) as program:
         with driver(recording, 'rate:=200.0', kind=kind):
             wait_for('the estimator to be heard', observer.hears_all)
         wait_for_quiet(observer)

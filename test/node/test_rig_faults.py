@@ -76,7 +76,7 @@ def test_a_stamp_before_all_time_does_no_harm(stamp, joint_state_listener):
         assert f'{stamp.sec + 1e-9 * stamp.nanosec:.9f} s' in program.output()
         assert listener.answer(*STOP) == 'driven_to_stop'
     listener.forget()
-    with listener.estimator(*arguments, greet=False):
+    with listener.estimator(*arguments):
         # As the first of all.
         wait_for('an answer', lambda: listener.publish(*STOP, stamp=stamp) or listener.regimes)
         assert listener.answer(*STOP) == 'driven_to_stop'
@@ -112,7 +112,7 @@ def test_two_clients_that_set_parameters_at_once_leave_a_design_that_one_asked_f
     asked = ((0.2, 0.02), (0.4, 0.04))
     pairs = {design: solve_stop(*design) for design in asked}
     with listener.estimator(*reliable_input()) as program, spinning(Listener) as other:
-        other.connect_to_services(program)
+        other.connect(program)
         ended = threading.Event()
 
         def stream() -> None:

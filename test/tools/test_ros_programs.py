@@ -8,7 +8,8 @@ import time
 import pytest
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from ros_programs import Program, spinning, wait_for
+from ros_programs import Program, ask, spinning, wait_for
+from std_srvs.srv import Trigger
 
 
 def test_a_node_is_not_destroyed_while_its_thread_gathers_what_to_wait_for(monkeypatch):
@@ -48,3 +49,25 @@ def test_the_exit_code_of_a_program_is_returned_and_one_that_ends_too_late_is_an
             else:
                 with pytest.raises(TimeoutError, match=r'to end, allowed are 0\.5 s'):
                     program.end(signal.SIGTERM, within)
+
+
+def test_a_slow_answer_counts_though_it_was_asked_again():
+    with (
+        spinning(lambda context: Node('server', context=context)) as server,
+        spinning(lambda context: Node('asker', context=context)) as asker,
+    ):
+        is_slow, asked = threading.Event(), []
+
+        def answer(_request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+            if is_slow.is_set():
+                time.sleep(1.5)  # longer than it is waited for at first
+            asked.append(is_slow.is_set())
+            response.message = str(asked.count(True))
+            return response
+
+        server.create_service(Trigger, 'slow', answer)
+        client = asker.create_client(Trigger, 'slow')
+        assert ask(client, Trigger.Request()).message == '0'  # From now on it knows the client.
+        is_slow.set()
+        assert ask(client, Trigger.Request()).message == '1'
+        wait_for('that it was asked again', lambda: asked.count(True) > 1)
