@@ -8,6 +8,7 @@ from xml.parsers.expat import ExpatError
 from ament_index_python.packages import get_package_share_directory
 
 from ..physics.errors import TendonStaticsError
+from .apt_package import apt_package
 from .joint_names import JointNames
 
 
@@ -45,7 +46,7 @@ def unit_description(
     except ModuleNotFoundError as error:
         raise DescriptionError(
             f'xacro, which makes the description of the unit, is not installed ({error}): '
-            'apt install ros-jazzy-xacro, or pip install xacro'
+            f'apt install {apt_package("xacro")}, or pip install xacro'
         ) from None
     urdf = Path(get_package_share_directory('tendon_statics')) / 'urdf' / 'unit.urdf.xacro'
     arguments = {
