@@ -290,10 +290,9 @@ def report(
         f'skipped by the driver, that was too slow: {sent["skipped"]}; parameters were set '
         f'{settings.total()} times'
     )
-    halfway = memory[len(memory) // 2]
     print(
-        f'memory (RSS): {memory[0]:.1f} MB at the start, {halfway:.1f} MB halfway, '
-        f'{memory[-1]:.1f} MB at the end, {max(memory):.1f} MB at most; allowed are '
+        f'memory (RSS): {memory[0]:.1f} MB at the start, {memory[len(memory) // 2]:.1f} MB '
+        f'halfway, {memory[-1]:.1f} MB at the end, {max(memory):.1f} MB at most; allowed are '
         f'{MOST_GROWTH:.0f} MB more than at the start'
     )
     balanced = all(expected == found for _, expected, found in lines)

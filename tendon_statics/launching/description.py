@@ -9,6 +9,7 @@ from xml.parsers.expat import ExpatError
 from ament_index_python.packages import get_package_share_directory
 
 from ..physics.errors import TendonStaticsError
+from .apt_package import apt_package
 from .joint_names import JointNames
 
 
@@ -104,7 +105,7 @@ def _expanded(what: str, path: str | Path, arguments: dict[str, str]) -> str:
     except ModuleNotFoundError as error:
         raise DescriptionError(
             f'xacro, which makes the description of the {what}, is not installed ({error}): '
-            'apt install ros-jazzy-xacro, or pip install xacro'
+            f'apt install {apt_package("xacro")}, or pip install xacro'
         ) from None
     urdf = Path(get_package_share_directory('tendon_statics')) / 'urdf' / f'{what}.urdf.xacro'
     try:

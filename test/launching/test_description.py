@@ -51,6 +51,7 @@ def test_a_relative_path_starts_from_where_the_user_is(tmp_path, monkeypatch):
 
 def test_a_missing_xacro_is_one_line_that_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, 'xacro', None)
+    monkeypatch.delenv('ROS_DISTRO', raising=False)
     with pytest.raises(DescriptionError) as raised:
         unit_description(default_design_path(), JointNames())
     assert 'xacro, which makes the description' in str(raised.value)

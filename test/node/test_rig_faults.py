@@ -3,12 +3,14 @@
 import signal
 import threading
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
+from ament_index_python.packages import get_package_prefix
 from builtin_interfaces.msg import Time
 from designs import PRELIMINARY
 from listener import Listener, reliable_input
-from ros_programs import spinning, wait_for
+from ros_programs import EXECUTOR, Program, spinning, wait_for
 
 from tendon_statics import solve
 
@@ -172,3 +174,18 @@ def test_a_manager_may_cycle_it_a_thousand_times(listener):
         assert listener.answer(*STOP) == 'driven_to_stop'
         listener.newest_estimate()
         assert 'Traceback' not in program.output()
+
+
+def test_a_disk_that_is_full_costs_the_log_and_nothing_else(listener):
+    """By a limit on the size of files, with neither room for ROS's log nor for the console's."""
+    estimator = Path(get_package_prefix('tendon_statics'), 'lib', 'tendon_statics', 'estimator')
+    full = ('bash', '-c', 'ulimit -f 0; exec "$@"', 'bash')
+    given = ('--ros-args', '-p', f'executor:={EXECUTOR or "single"}')
+    with Program.running_command((*full, estimator, *given)) as program:
+        listener.connect(program)
+        for mass in (0.03, -1.0, 0.02):  # of which each is said, or that it is refused
+            result = listener.set_estimator_parameters(design__mass=mass)
+            assert result.successful == (mass > 0.0)
+            assert listener.answer(*STOP) == 'driven_to_stop'
+        assert program.output() == ''
+        assert program.end() == 0
