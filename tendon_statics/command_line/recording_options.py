@@ -112,9 +112,10 @@ def _add_bag_options(bag: argparse._ArgumentGroup) -> None:
     bag.add_argument(
         '--max-skew',
         type=float,
-        default=DEFAULTS.max_skew,
         metavar='S',
-        help='by which messages that belong together may be apart; default: %(default)s',
+        help='by which messages that belong together may be apart; default: '
+        f'{DEFAULTS.max_skew}, and of the two tensions of a pair that of the design file, or '
+        f'{DEFAULTS.pair_skew}',
     )
     bag.add_argument(
         '--clock',
@@ -183,6 +184,7 @@ def recording_from(
 
 def topics_from(options: argparse.Namespace, unit: Unit) -> BagTopics:
     """Return where in a bag the numbers are, by the options or the unit's file."""
+    skew = options.max_skew
     return BagTopics(
         tensions=options.tensions_topic,
         tension_source=options.tension_source or unit.get('tension_source'),
@@ -200,8 +202,8 @@ def topics_from(options: argparse.Namespace, unit: Unit) -> BagTopics:
         tip_wrench=options.tip_wrench_topic
         or (TIP_WRENCH if unit.get('tip_wrench') is True else None),
         state=options.state_topic,
-        max_skew=options.max_skew,
-        tension_skew=unit.get('max_skew'),
+        max_skew=DEFAULTS.max_skew if skew is None else skew,
+        tension_skew=unit.get('max_skew') if skew is None else skew,
         clock=options.clock,
     )
 

@@ -7,10 +7,10 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from .stamp_order import NANOSECONDS
+
 MOST_WAITING = 1000
 """Values of one cable that wait for those of the other"""
-
-NANOSECONDS = 1_000_000_000
 
 
 class Single(NamedTuple):

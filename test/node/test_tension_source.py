@@ -16,13 +16,17 @@ from tendon_statics.node.inputs.sources import (
     JointStateSource,
     Reading,
     WrenchPairSource,
+    nanoseconds,
 )
-from tendon_statics.node.inputs.stamp_order import StampOrder, nanoseconds
 from tendon_statics.tensions.cable_scale import CableScale, scaled
 from tendon_statics.tensions.pairing import MOST_WAITING
 from tendon_statics.tensions.reason import Reason
+from tendon_statics.tensions.stamp_order import StampOrder
 
 ARRIVAL = 10**18
+"""ns"""
+
+MILLISECOND = 10**6
 """ns"""
 
 
@@ -176,32 +180,32 @@ def test_a_topic_has_one_clock(taken):
 def test_a_driver_with_an_earlier_clock_is_taken_once_the_input_is_stale(first):
     """The same after one stamp far in the future."""
     order = StampOrder()
-    assert order.objection(at(first)) is None
-    assert all(order.objection(at(stamp)) for stamp in range(10, 20))
+    assert order.objection(MILLISECOND * first) is None
+    assert all(order.objection(MILLISECOND * stamp) for stamp in range(10, 20))
     order.is_loose = True
     order.forget()
-    assert order.objection(at(first)) is None
+    assert order.objection(MILLISECOND * first) is None
     order.is_loose = True
-    assert order.objection(at(20))
-    assert order.objection(at(21))
-    assert order.objection(at(22)) is None
+    assert order.objection(MILLISECOND * 20)
+    assert order.objection(MILLISECOND * 21)
+    assert order.objection(MILLISECOND * 22) is None
     order.is_loose = False
-    assert order.objection(at(22))
-    assert order.objection(at(21))
-    assert order.objection(at(23)) is None
+    assert order.objection(MILLISECOND * 22)
+    assert order.objection(MILLISECOND * 21)
+    assert order.objection(MILLISECOND * 23) is None
 
 
 def test_stamps_that_do_not_rise_are_never_taken():
     """Going backwards, standing still, or to and fro; until the order is forgotten."""
     for early in (range(999, 0, -1), [5] * 999, [5, 6] * 500):
         order = StampOrder()
-        assert order.objection(at(1000)) is None
+        assert order.objection(MILLISECOND * 1000) is None
         order.is_loose = True
         for stamp in early:
-            assert order.objection(at(stamp))
-        assert order.objection(at(1001)) is None
+            assert order.objection(MILLISECOND * stamp)
+        assert order.objection(MILLISECOND * 1001) is None
         order.forget()
-        assert order.objection(at(1)) is None
+        assert order.objection(MILLISECOND * 1) is None
 
 
 def test_a_bad_stamp_of_bad_content_does_not_shut_a_stale_input(taken):

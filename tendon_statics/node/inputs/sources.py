@@ -12,12 +12,12 @@ from geometry_msgs.msg import Vector3, WrenchStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
-from ...files.cable_parameters import CABLES
-from ...tensions.named_values import cable_values
-from ...tensions.pairing import Pairing, Single
-from ...tensions.reason import Fault, Reason
+from ...tensions.joining import Joining
+from ...tensions.named_values import NamedValues, cable_values
+from ...tensions.pairing import Single
+from ...tensions.reason import Reason
+from ...tensions.stamp_order import NANOSECONDS
 from ..parameters.estimator import Wiring
-from .stamp_order import StampOrder, nanoseconds, seconds
 
 COMPONENTS: dict[str, Callable[[Vector3], float]] = {
     'z': lambda force: force.z,
@@ -56,8 +56,6 @@ class TensionSource:
     ----------
     deliver, drop : callable
         Take what comes of the messages: a reading, or the reason for none with a text.
-    stamped : str
-        What has stamps of an order of its own.
     """
 
     inputs: dict[str, tuple[type, TakesPair]]
@@ -66,10 +64,9 @@ class TensionSource:
     has_one_publisher = True
     """Whether each topic is to have one publisher alone"""
 
-    def __init__(self, deliver: Deliver, drop: Drop, *stamped: str) -> None:
+    def __init__(self, deliver: Deliver, drop: Drop) -> None:
         self._deliver = deliver
         self._drop = drop
-        self._orders = {what: StampOrder() for what in stamped}
 
     def is_foreign(self, _message: Any) -> bool:
         """Whether a message is about neither cable, so that it is none of ours."""
@@ -77,18 +74,12 @@ class TensionSource:
 
     def loosen(self) -> None:
         """Take it that the driver may have begun anew, with an earlier clock, until `tighten`."""
-        for order in self._orders.values():
-            order.is_loose = True
 
     def tighten(self) -> None:
         """Take it that the stamps are sound again, since tensions came of them."""
-        for order in self._orders.values():
-            order.is_loose = False
 
     def forget(self) -> None:
         """Forget what came before, for the clock was set back or the node was inactive."""
-        for order in self._orders.values():
-            order.forget()
 
 
 class ArraySource(TensionSource):
@@ -112,10 +103,9 @@ class ArraySource(TensionSource):
 
 
 class PairedSource(TensionSource):
-    """What joins messages of one cable each, by their stamps, or by arrival where they have none.
+    """What has stamps, and may come with one cable a message: see `Joining`.
 
-    The reading has the later of the two stamps. One message has one partner, the nearest that is
-    free when the later of the two comes.
+    The reading has the later of the two stamps.
 
     Parameters
     ----------
@@ -132,46 +122,30 @@ class PairedSource(TensionSource):
         cable_names: tuple[str, str],
         max_skew: Callable[[], float],
     ) -> None:
-        super().__init__(deliver, drop, *CABLES)
+        super().__init__(deliver, drop)
         self._cable_names = cable_names
-        self._max_skew = max_skew
-        self._pairing = Pairing(max_skew, self._deliver_pair, self._drop_single)
+        self._joining = Joining(
+            self._deliver_pair, lambda fault, _: self._drop(*fault), cable_names, max_skew
+        )
+
+    def loosen(self) -> None:
+        """As in `TensionSource`."""
+        self._joining.loosen()
+
+    def tighten(self) -> None:
+        """As in `TensionSource`."""
+        self._joining.tighten()
 
     def forget(self) -> None:
         """As in `TensionSource`; what still waits is dropped."""
-        super().forget()
-        self._pairing.forget()
+        self._joining.forget()
 
-    def _take_one(self, cable: int, value: float, stamp: Time, arrival: int) -> None:
-        """Take a value of cable 0 (l) or 1 (s)."""
-        stamp_or_none, fault = self._checked(stamp, cable)
-        if fault:
-            self._drop(fault[0], f'{self._cable_names[cable]}: {fault[1]}')
-            return
-        time = arrival if stamp_or_none is None else nanoseconds(stamp)
-        self._pairing.take(cable, Single(time, value, stamp_or_none))
-
-    def _checked(self, stamp: Time, *cables: int) -> tuple[Time | None, Fault | None]:
-        """Return a stamp, None if it is none, and what is against it in the order of its cables.
-
-        A stamp of 0 is none, unless the driver has stamped before.
-        """
-        orders = [self._orders[CABLES[cable]] for cable in cables]
-        if not (stamp.sec or stamp.nanosec or any(order.has_begun for order in orders)):
-            return None, None
-        objections = [order.objection(stamp) for order in orders]
-        return stamp, next(filter(None, objections), None)
+    def _take_values(self, values: NamedValues, stamp: Time, arrival: int) -> None:
+        self._joining.take(values, nanoseconds(stamp), arrival, stamp)
 
     def _deliver_pair(self, of_l: Single, of_s: Single) -> None:
-        later = of_l if of_l.time >= of_s.time else of_s
-        self._deliver(Reading(of_l.value, of_s.value, later.source))
-
-    def _drop_single(self, cable: int, single: Single) -> None:
-        self._drop(
-            Reason.UNPAIRED,
-            f'{self._cable_names[cable]} of {seconds(single.time)} s has no partner of its own '
-            f'within max_skew, {self._max_skew():g} s',
-        )
+        stamp: Time = max(of_l, of_s, key=lambda single: single.time).source
+        self._deliver(Reading(of_l.value, of_s.value, stamp if nanoseconds(stamp) else None))
 
 
 class JointStateSource(PairedSource):
@@ -201,23 +175,7 @@ class JointStateSource(PairedSource):
 
     def _take(self, message: JointState, arrival: int) -> None:
         found = cable_values(message.name, message.effort, self._cable_names)
-        if found.is_foreign:
-            return
-        if found.fault is not None:
-            self._drop(*found.fault)
-            return
-        stamp = message.header.stamp
-        if found.value_l is None:
-            self._take_one(1, found.value_s or 0.0, stamp, arrival)
-        elif found.value_s is None:
-            self._take_one(0, found.value_l, stamp, arrival)
-        else:
-            stamp_or_none, late = self._checked(stamp, 0, 1)
-            if late:
-                self._drop(*late)
-                return
-            self._pairing.forget()  # A pair as it is needs no partner of another time.
-            self._deliver(Reading(found.value_l, found.value_s, stamp_or_none))
+        self._take_values(found, message.header.stamp, arrival)
 
 
 class WrenchPairSource(PairedSource):
@@ -244,7 +202,8 @@ class WrenchPairSource(PairedSource):
 
     def _take(self, cable: int, message: WrenchStamped, arrival: int) -> None:
         value = self._component(message.wrench.force)
-        self._take_one(cable, value, message.header.stamp, arrival)
+        values = NamedValues(value, None) if cable == 0 else NamedValues(None, value)
+        self._take_values(values, message.header.stamp, arrival)
 
 
 def tension_source(
@@ -256,3 +215,8 @@ def tension_source(
     if wiring.tension_source == 'wrench_pair':
         return WrenchPairSource(deliver, drop, wiring.wrench_component, max_skew)
     return ArraySource(deliver, drop)
+
+
+def nanoseconds(stamp: Time) -> int:
+    """Return a stamp as nanoseconds since its clock's start."""
+    return stamp.sec * NANOSECONDS + stamp.nanosec
