@@ -18,7 +18,7 @@ from .recording_options import (
     report_notes,
     unit_and_recording,
 )
-from .replay import add_estimation_options, replay_from
+from .replay_options import add_estimation_options, replay_from
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

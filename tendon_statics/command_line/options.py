@@ -11,9 +11,7 @@ from pathlib import Path
 from ..files.design_file import default_design_path
 from ..files.unit_file import Unit, load_unit
 from ..physics import UPRIGHT, JointDesign, Load, TendonStaticsError
-
-TENSION_STDDEV = 0.01
-"""N"""
+from ..physics.deviations import BEND_ANGLE_STDDEV, TENSION_STDDEV
 
 
 class UsageError(TendonStaticsError):
@@ -109,6 +107,23 @@ def tension_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
     return tension_stddev_of(options, unit) or TENSION_STDDEV
 
 
+def add_bend_angle_stddev_option(parser: argparse.ArgumentParser) -> None:
+    """Add ``--bend-angle-stddev-deg DEG``."""
+    parser.add_argument(
+        '--bend-angle-stddev-deg',
+        type=_deviation_or_0,
+        metavar='DEG',
+        help='standard deviation of a measured angle in degrees; default: '
+        f'measured_bend_angle_stddev of the design file, or {math.degrees(BEND_ANGLE_STDDEV):g}',
+    )
+
+
+def bend_angle_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
+    """Return the option, if there is one, or what the design file says, or the default, in rad."""
+    degrees = getattr(options, 'bend_angle_stddev_deg', None)
+    return unit.settings.measured_bend_angle_stddev if degrees is None else math.radians(degrees)
+
+
 def add_load_options(parser: argparse.ArgumentParser) -> None:
     """Add what acts on the unit beside its cables: tilt or gravity, and a force at the tip."""
     group = parser.add_argument_group(
@@ -198,6 +213,13 @@ def deviation(text: str) -> float:
         value = math.nan
     if not 0.0 < value < math.inf:
         raise argparse.ArgumentTypeError(f'it is {text!r}, allowed is a finite number above 0')
+    return value
+
+
+def _deviation_or_0(text: str) -> float:
+    value = finite(text)
+    if value < 0.0:
+        raise argparse.ArgumentTypeError(f'it is {text!r}, allowed is 0 or more')
     return value
 
 

@@ -46,7 +46,7 @@ from .origin import origin_facts
 from .page import fact_table, paragraph, table, warning, write_page
 from .recorded_tip_force import recorded_tip_forces, tip_force_facts
 from .recording_options import add_recording_options, report_damage, unit_and_recording
-from .replay import add_estimation_options, initial_bend_angle_from, replay_from
+from .replay_options import add_estimation_options, initial_bend_angle_from, replay_from
 from .replay_text import replay_facts
 from .report_text import (
     DISTANCES,
@@ -90,7 +90,7 @@ def run(options: argparse.Namespace) -> int:
     except (CalibrationError, RecordingError) as error:
         design, of = start, design_name(options)
         fitted = ['<h2>Calibration</h2>', warning(f'Nothing could be fitted: {error}')]
-        note = f'tendon-statics: {path} has no calibration: {error}'
+        note = f'tendon-statics: the report is written, but has no calibration: {error}'
     else:
         calibration = fit.calibration
         design, of = calibration.design or start, FITTED

@@ -9,6 +9,7 @@ import dataclasses
 from functools import cached_property
 
 from ..physics import UPRIGHT, DesignUncertainty, JointDesign, Load
+from ..physics.deviations import BEND_ANGLE_STDDEV, TENSION_STDDEV
 from ..tensions.cable_scale import CableScale
 from ..tensions.watch import Plausibility
 
@@ -25,7 +26,7 @@ class Settings:
     """A valid set of what may change while an estimator runs."""
 
     design: JointDesign
-    tension_stddev: float = 0.01
+    tension_stddev: float = TENSION_STDDEV
     """N"""
     design_uncertainty: DesignUncertainty | None = None
     """How well the design is known; None: it is taken as exact"""
@@ -35,7 +36,7 @@ class Settings:
     """s"""
     tension_bias_stddev: float = 0.0
     """N"""
-    measured_bend_angle_stddev: float = 0.01
+    measured_bend_angle_stddev: float = BEND_ANGLE_STDDEV
     """rad"""
     initial_bend_angle: float = 0.0
     """rad"""
