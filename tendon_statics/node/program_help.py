@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 
 WHAT = {
     'estimator': 'Bend angle and joint pressure of one unit from its cable tensions, as a node.',
+    'arm_estimator': 'Bend angles and pressures of an arm from its cable tensions, as a node.',
     'pulley_driver': 'Plays recorded tensions where a rig has motor drivers, as a node.',
     'view': 'A live page in the browser of what the estimators say, as a node.',
 }
@@ -32,12 +33,14 @@ def node_help(name: str, arguments: Sequence[str]) -> str:
 
 
 def _help(name: str) -> str:
+    from ..files.arm_parameters import ARM_PARAMETERS, cable_table
     from ..files.driver_parameters import DRIVER_PARAMETERS
     from ..files.estimator_parameters import ESTIMATOR_PARAMETERS
     from ..files.view_parameters import VIEW_PARAMETERS
 
     tables = {
         'estimator': ESTIMATOR_PARAMETERS,
+        'arm_estimator': ARM_PARAMETERS,
         'pulley_driver': DRIVER_PARAMETERS,
         'view': VIEW_PARAMETERS,
     }
@@ -58,6 +61,8 @@ def _help(name: str) -> str:
         lines = [line for line in lines if ' -r ' not in line]
     if name == 'estimator':
         lines.append("  design....: the unit's design; `tendon-statics design` lists it")
+    elif name == 'arm_estimator':
+        lines += _lines(cable_table(('NAME',)))
     return '\n'.join(lines)
 
 

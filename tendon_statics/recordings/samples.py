@@ -11,7 +11,7 @@ from ..estimation.settings import Settings
 from ..physics.tensions import MAX_TENSION
 from ..tensions.cable_scale import scaled_arrays
 from ..tensions.reason import ReadingError
-from ..tensions.watch import PairWatch
+from ..tensions.watch import TensionWatch
 from .recording import Recording
 from .scaling import worse_reasons
 
@@ -25,9 +25,9 @@ class Samples:
         self.times = _times(recording)
         self.faults = _faults(recording, settings)
         """Why each is no pair of tensions, in the node's words; more may be found later on"""
-        self.watch = PairWatch()
+        self.watch = TensionWatch()
 
-    def judged(self, place: int) -> tuple[float, float]:
+    def judged(self, place: int) -> tuple[float, ...]:
         """Return the tensions of a sample, 0 of a slack cable, NaN if it is not plausible."""
         if not self.faults[place]:
             try:

@@ -1,24 +1,33 @@
-"""From messages about one cable or both to pairs of one time, as node and replay make them."""
+"""From messages about some cables to sets of all at one time, as node and replay make them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, NamedTuple
 
 from .named_values import NamedValues
-from .pairing import Pairing, Single
+from .pairing import Pairing, Part
 from .reason import Fault, Reason
 from .stamp_order import StampOrder, seconds
 
-DeliverPair = Callable[[Single, Single], None]
-"""Takes a pair, cable l first"""
 
-DropMessage = Callable[[Fault, Single], None]
-"""Takes why a message gives no pair, and its time, its value of one cable and its source"""
+class Whole(NamedTuple):
+    """What was measured of all cables at one time."""
+
+    time: int
+    """ns, the latest of its messages"""
+    values: Sequence[float]
+    """In the order of the cables"""
+    sources: Sequence[Any]
+    """What came along with its messages, that of the latest at the end"""
+
+
+DropMessage = Callable[[Fault, Part], None]
+"""Takes why a message gives nothing, and what it said, without values if they are not known"""
 
 
 class Joining:
-    """Checks the order of stamps, and joins messages of one cable each.
+    """Checks the order of stamps, and joins messages of some cables each.
 
     Messages go by their stamps, or by arrival where they have none. The stamps of each cable have
     to rise: of several publishers with equal stamps the first counts.
@@ -28,24 +37,24 @@ class Joining:
     deliver, drop : callable
         Take what comes of the messages.
     cable_names : tuple of str
-        What cables l and s are called in texts.
+        What the cables are called in texts.
     max_skew : callable
-        Returns the most that two times of a pair may differ, in s.
+        Returns the most that two times of a whole may differ, in s.
     """
 
     def __init__(
         self,
-        deliver: DeliverPair,
+        deliver: Callable[[Whole], None],
         drop: DropMessage,
-        cable_names: tuple[str, str],
+        cable_names: tuple[str, ...],
         max_skew: Callable[[], float],
     ) -> None:
         self._deliver = deliver
         self._drop = drop
         self._cable_names = cable_names
         self._max_skew = max_skew
-        self._orders = StampOrder(), StampOrder()
-        self._pairing = Pairing(max_skew, deliver, self._drop_single)
+        self._orders = tuple(StampOrder() for _ in cable_names)
+        self._pairing = Pairing(len(cable_names), max_skew, self._deliver_parts, self._drop_part)
 
     def loosen(self) -> None:
         """Take it that the driver may have begun anew, with an earlier clock, until `tighten`."""
@@ -75,40 +84,55 @@ class Joining:
         source : object
             Whatever should come along with the values.
         """
-        value_l, value_s, fault = values
-        if value_l is None and value_s is None and fault is None:
+        if values.is_foreign:
             return
+        if values.fault is not None:
+            self._drop(values.fault, Part(stamp or arrival, {}, source))
+            return
+        known = {cable: of for cable, of in enumerate(values.values) if of is not None}
+        if len(known) == len(self._cable_names):
+            self.take_whole(tuple(known.values()), stamp, arrival, source)
+            return
+        stamped, fault = self._checked(stamp, known)
+        part = Part(stamp if stamped else arrival, known, source)
         if fault is None:
-            stamped, fault = self._checked(values, stamp)
-            time = stamp if stamped else arrival
+            self._pairing.take(part)
         else:
-            time = stamp or arrival
-        if fault is not None:
-            self._drop(fault, Single(time, float('nan'), source))
-        elif value_l is None or value_s is None:
-            cable, value = (1, value_s) if value_l is None else (0, value_l)
-            self._pairing.take(cable, Single(time, value or 0.0, source))
-        else:
-            self._pairing.forget()  # A pair as it is needs no partner of another time.
-            self._deliver(Single(time, value_l, source), Single(time, value_s, source))
+            reason, text = fault
+            self._drop((reason, f'{self._named(known)}: {text}'), part)
 
-    def _checked(self, values: NamedValues, stamp: int) -> tuple[bool, Fault | None]:
+    def take_whole(
+        self, values: Sequence[float], stamp: int, arrival: int, source: Any = None
+    ) -> None:
+        """Take a message with the values of all cables, in their order."""
+        stamped, fault = self._checked(stamp, range(len(values)))
+        time = stamp if stamped else arrival
+        if fault is not None:
+            self._drop(fault, Part(time, dict(enumerate(values)), source))
+            return
+        self._pairing.forget()  # A whole as it is needs no partner of another time.
+        self._deliver(Whole(time, values, (source,)))
+
+    def _checked(self, stamp: int, cables: Iterable[int]) -> tuple[bool, Fault | None]:
         """Return whether a stamp is one, and what is against it in the order of its cables."""
-        cables = [cable for cable in (0, 1) if values[cable] is not None]
         orders = [self._orders[cable] for cable in cables]
         if not stamp and not any(order.has_begun for order in orders):
             return False, None
         objections = [order.objection(stamp) for order in orders]
-        reason, text = next(filter(None, objections), (None, ''))
-        if reason is None:
-            return True, None
-        if len(cables) == 1:
-            text = f'{self._cable_names[cables[0]]}: {text}'
-        return True, (reason, text)
+        return True, next(filter(None, objections), None)
 
-    def _drop_single(self, cable: int, single: Single) -> None:
+    def _deliver_parts(self, parts: list[Part]) -> None:
+        by_time = sorted(parts, key=lambda part: part.time)
+        values = {cable: value for part in parts for cable, value in part.values.items()}
+        in_order = tuple(values[cable] for cable in range(len(values)))
+        self._deliver(Whole(by_time[-1].time, in_order, [part.source for part in by_time]))
+
+    def _drop_part(self, part: Part) -> None:
         text = (
-            f'{self._cable_names[cable]} of {seconds(single.time)} s has no partner of its own '
+            f'{self._named(part.values)} of {seconds(part.time)} s has no partner of its own '
             f'within max_skew, {self._max_skew():g} s'
         )
-        self._drop((Reason.UNPAIRED, text), single)
+        self._drop((Reason.UNPAIRED, text), part)
+
+    def _named(self, cables: Iterable[int]) -> str:
+        return ', '.join(self._cable_names[cable] for cable in cables)

@@ -45,7 +45,7 @@ class Taken:
 
     @property
     def values(self):
-        return [reading[:2] for reading in self.readings]
+        return [reading.values for reading in self.readings]
 
     @property
     def reasons(self):
@@ -83,7 +83,7 @@ def test_an_array_is_taken_as_it_is_and_has_no_stamp(taken):
     source = ArraySource(taken.deliver, taken.drop)
     for data in ([1.0, 2.0], [1.0], [], [1.0, 2.0, 3.0]):
         send(source, 'tensions', Float64MultiArray(data=data))
-    assert taken.readings == [Reading(1.0, 2.0, None)]
+    assert taken.readings == [Reading((1.0, 2.0), None)]
     assert taken.reasons == [Reason.WRONG_LENGTH] * 3
     assert '1 values came' in taken.drops[0][1]
 
@@ -172,7 +172,7 @@ def test_a_topic_has_one_clock(taken):
     """Of a driver that has stamped its messages, one without a stamp is out of order."""
     source = JointStateSource(taken.deliver, taken.drop, ('l', 's'), lambda: 0.0005)
     send(source, 'tensions', *(joint_state(stamp, l=stamp, s=1) for stamp in (0, 5, 0, 6)))
-    assert [reading.value_l for reading in taken.readings] == [0.0, 5.0, 6.0]
+    assert [reading.values[0] for reading in taken.readings] == [0.0, 5.0, 6.0]
     assert taken.reasons == [Reason.OUT_OF_ORDER]
 
 
@@ -217,7 +217,7 @@ def test_a_bad_stamp_of_bad_content_does_not_shut_a_stale_input(taken):
     assert len(taken.readings) > 5
     source.tighten()
     send(source, 'tensions', *(joint_state(stamp, l=stamp, s=1) for stamp in range(5)))
-    assert taken.readings[-1].value_l == 19.0
+    assert taken.readings[-1].values[0] == 19.0
 
 
 @pytest.mark.parametrize('phase', [0.0, 0.4, 0.8, 1.0, 1.2, 1.6])
@@ -313,8 +313,8 @@ def test_every_message_of_a_load_cell_is_paired_dropped_or_waiting(sent, skew):
     source.forget()
     assert len(sent) == 2 * len(taken.readings) + len(taken.drops)
     for reading in taken.readings:
-        assert abs(reading.value_l - reading.value_s) <= skew
-        assert nanoseconds(reading.stamp) == 1e6 * max(reading[:2])
+        assert abs(reading.values[0] - reading.values[1]) <= skew
+        assert nanoseconds(reading.stamp) == 1e6 * max(reading.values)
     times = [nanoseconds(reading.stamp) for reading in taken.readings]
     assert times == sorted(set(times))
 

@@ -1,9 +1,9 @@
-"""Where tensions come from: the kinds of messages that drivers publish, as pairs of values."""
+"""Where tensions come from: the kinds of messages that drivers publish, as sets of values."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -12,9 +12,8 @@ from geometry_msgs.msg import Vector3, WrenchStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
-from ...tensions.joining import Joining
+from ...tensions.joining import Joining, Whole
 from ...tensions.named_values import NamedValues, cable_values
-from ...tensions.pairing import Single
 from ...tensions.reason import Reason
 from ...tensions.stamp_order import NANOSECONDS
 from ..parameters.estimator import Wiring
@@ -29,18 +28,17 @@ COMPONENTS: dict[str, Callable[[Vector3], float]] = {
 
 
 class Reading(NamedTuple):
-    """What was measured of the two cables at one time."""
+    """What was measured of all cables at one time."""
 
-    value_l: float
-    """In the driver's unit, as `value_s`"""
-    value_s: float
+    values: Sequence[float]
+    """In the driver's unit, in the order of the cables: of a unit l and s"""
     stamp: Time | None = None
     """None if the message has none, or 0, which means the same"""
 
 
 Deliver = Callable[[Reading], None]
 Drop = Callable[[Reason, str], None]
-TakesPair = Callable[[Any, int], None]
+Takes = Callable[[Any, int], None]
 """Takes a message, and when it arrived in ns since 1970"""
 
 
@@ -58,7 +56,7 @@ class TensionSource:
         Take what comes of the messages: a reading, or the reason for none with a text.
     """
 
-    inputs: dict[str, tuple[type, TakesPair]]
+    inputs: dict[str, tuple[type, Takes]]
     kind: str
     """As the parameter ``tension_source`` has it"""
     has_one_publisher = True
@@ -69,7 +67,7 @@ class TensionSource:
         self._drop = drop
 
     def is_foreign(self, _message: Any) -> bool:
-        """Whether a message is about neither cable, so that it is none of ours."""
+        """Whether a message is about no cable, so that it is none of ours."""
         return False
 
     def loosen(self) -> None:
@@ -83,49 +81,58 @@ class TensionSource:
 
 
 class ArraySource(TensionSource):
-    """``std_msgs/Float64MultiArray`` ``[T_l, T_s]``; its layout is not looked at."""
+    """``std_msgs/Float64MultiArray`` of one value a cable; its layout is not looked at.
+
+    Parameters
+    ----------
+    needed : tuple of str
+        What the values are called, in their order.
+    """
 
     kind = 'array'
 
-    def __init__(self, deliver: Deliver, drop: Drop) -> None:
+    def __init__(
+        self, deliver: Deliver, drop: Drop, needed: tuple[str, ...] = ('tension_l', 'tension_s')
+    ) -> None:
         super().__init__(deliver, drop)
+        self._needed = needed
         self.inputs = {'tensions': (Float64MultiArray, self._take)}
 
     def _take(self, message: Float64MultiArray, _arrival: int) -> None:
         values = message.data
-        if len(values) == 2:
-            self._deliver(Reading(values[0], values[1]))
+        if len(values) == len(self._needed):
+            self._deliver(Reading(tuple(values)))
         else:
             self._drop(
                 Reason.WRONG_LENGTH,
-                f'{len(values)} values came, [tension_l, tension_s] is needed',
+                f'{len(values)} values came, [{", ".join(self._needed)}] is needed',
             )
 
 
-class PairedSource(TensionSource):
-    """What has stamps, and may come with one cable a message: see `Joining`.
+class JoiningSource(TensionSource):
+    """What has stamps, and may come with some cables a message: see `Joining`.
 
-    The reading has the later of the two stamps.
+    The reading has the latest of the stamps.
 
     Parameters
     ----------
     cable_names : tuple of str
-        What cables l and s are called.
+        What the cables are called.
     max_skew : callable
-        Returns the most that two times of a pair may differ, in s.
+        Returns the most that two times of a reading may differ, in s.
     """
 
     def __init__(
         self,
         deliver: Deliver,
         drop: Drop,
-        cable_names: tuple[str, str],
+        cable_names: tuple[str, ...],
         max_skew: Callable[[], float],
     ) -> None:
         super().__init__(deliver, drop)
         self._cable_names = cable_names
         self._joining = Joining(
-            self._deliver_pair, lambda fault, _: self._drop(*fault), cable_names, max_skew
+            self._deliver_whole, lambda fault, _: self._drop(*fault), cable_names, max_skew
         )
 
     def loosen(self) -> None:
@@ -143,16 +150,19 @@ class PairedSource(TensionSource):
     def _take_values(self, values: NamedValues, stamp: Time, arrival: int) -> None:
         self._joining.take(values, nanoseconds(stamp), arrival, stamp)
 
-    def _deliver_pair(self, of_l: Single, of_s: Single) -> None:
-        stamp: Time = max(of_l, of_s, key=lambda single: single.time).source
-        self._deliver(Reading(of_l.value, of_s.value, stamp if nanoseconds(stamp) else None))
+    def _deliver_whole(self, whole: Whole) -> None:
+        stamp: Time = whole.sources[-1]
+        self._deliver(Reading(whole.values, stamp if nanoseconds(stamp) else None))
+
+    def _named(self, cables: Iterable[int]) -> str:
+        return ', '.join(self._cable_names[cable] for cable in cables)
 
 
-class JointStateSource(PairedSource):
+class JointStateSource(JoiningSource):
     """``sensor_msgs/JointState`` with tensions in ``effort``, found by name.
 
-    A message has both cables or one, which is then joined with the other's. Other publishers may
-    say other things on the topic: messages about neither cable are none of ours.
+    A message has all cables or some, which are then joined with those of others. Other publishers
+    may say other things on the topic: messages about no cable are none of ours.
     """
 
     kind = 'joint_state'
@@ -162,23 +172,36 @@ class JointStateSource(PairedSource):
         self,
         deliver: Deliver,
         drop: Drop,
-        cable_names: tuple[str, str],
+        cable_names: tuple[str, ...],
         max_skew: Callable[[], float],
     ) -> None:
         super().__init__(deliver, drop, cable_names, max_skew)
+        self._is_ours = frozenset(cable_names).intersection
+        self._names_of_whole: list[str] | None = None
+        self._places: tuple[int, ...] = ()
+        """Where the cables stand among those names, which a driver mostly repeats"""
         self.inputs = {'tensions': (JointState, self._take)}
 
     def is_foreign(self, message: JointState) -> bool:
         """Whether no cable is among the names."""
         names = message.name
-        return not (self._cable_names[0] in names or self._cable_names[1] in names)
+        return names != self._names_of_whole and not self._is_ours(names)
 
     def _take(self, message: JointState, arrival: int) -> None:
-        found = cable_values(message.name, message.effort, self._cable_names)
+        names, values = message.name, message.effort
+        if names == self._names_of_whole and len(values) == len(names):
+            stamp = message.header.stamp
+            in_order = tuple([values[place] for place in self._places])
+            self._joining.take_whole(in_order, nanoseconds(stamp), arrival, stamp)
+            return
+        found = cable_values(names, values, self._cable_names)
+        if found.fault is None and found.values and None not in found.values:
+            self._names_of_whole = list(names)
+            self._places = tuple(names.index(cable) for cable in self._cable_names)
         self._take_values(found, message.header.stamp, arrival)
 
 
-class WrenchPairSource(PairedSource):
+class WrenchPairSource(JoiningSource):
     """Two ``geometry_msgs/WrenchStamped``, one of each load cell.
 
     Parameters
@@ -202,8 +225,21 @@ class WrenchPairSource(PairedSource):
 
     def _take(self, cable: int, message: WrenchStamped, arrival: int) -> None:
         value = self._component(message.wrench.force)
-        values = NamedValues(value, None) if cable == 0 else NamedValues(None, value)
+        values = NamedValues((value, None) if cable == 0 else (None, value))
         self._take_values(values, message.header.stamp, arrival)
+
+
+def arm_tension_source(
+    deliver: Deliver,
+    drop: Drop,
+    kind: str,
+    cable_names: tuple[str, ...],
+    max_skew: Callable[[], float],
+) -> TensionSource:
+    """Make the source that an arm's parameter ``tension_source`` asks for."""
+    if kind == 'array':
+        return ArraySource(deliver, drop, cable_names)
+    return JointStateSource(deliver, drop, cable_names, max_skew)
 
 
 def tension_source(

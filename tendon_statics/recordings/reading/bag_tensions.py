@@ -7,9 +7,9 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from ...tensions.joining import Joining
+from ...tensions.joining import Joining, Whole
 from ...tensions.named_values import NamedValues
-from ...tensions.pairing import Single
+from ...tensions.pairing import Part
 from ...tensions.reason import Fault, Reason
 from ..errors import RecordingError
 from .bag_storage import Message, Messages, without_copies
@@ -90,8 +90,8 @@ def find_tensions(bag: Messages, names: Sequence[str], topics: BagTopics) -> Ten
         return TensionMessages(
             found,
             {
-                name_l: [NamedValues(value_l=value(message)) for message in found[name_l]],
-                name_s: [NamedValues(value_s=value(message)) for message in found[name_s]],
+                name_l: [NamedValues((value(message), None)) for message in found[name_l]],
+                name_s: [NamedValues((None, value(message))) for message in found[name_s]],
             },
         )
     return _of_one_topic(bag, names[0], found[names[0]], topics)
@@ -109,9 +109,8 @@ def _of_one_topic(
     """
     read = cables_in(topics)
     values = [read(message) for message in messages]
-    has_l = any(value.value_l is not None for value in values)
-    has_s = any(value.value_s is not None for value in values)
-    if not (has_l and has_s):
+    pairs = [value.values for value in values if value.values]
+    if not all(any(pair[cable] is not None for pair in pairs) for cable in (0, 1)):
         raise RecordingError(_nothing(name, messages, values, topics))
     ours = [m for m, value in zip(messages, values, strict=True) if not value.is_foreign]
     ours = without_copies(bag, name, ours)
@@ -161,18 +160,15 @@ def tension_samples(
     """
     samples: list[Sample] = []
 
-    def deliver(of_l: Single, of_s: Single) -> None:
-        later = max(of_l, of_s, key=lambda single: single.time)
-        order = max(of_l.source[0], of_s.source[0])
-        samples.append(Sample(order, later.time, of_l.value, of_s.value))
+    def deliver(whole: Whole) -> None:
+        tension_l, tension_s = whole.values
+        samples.append(Sample(max(whole.sources), whole.time, tension_l, tension_s))
 
-    def drop(fault: Fault, of: Single) -> None:
-        order, values = of.source
-        is_alone = fault[0] is Reason.UNPAIRED
-        value_l, value_s = (
-            value if is_alone and value is not None else NAN for value in values[:2]
-        )
-        samples.append(Sample(order, of.time, value_l, value_s, fault[0].value))
+    def drop(fault: Fault, of: Part) -> None:
+        # Of what cannot be trusted, not even the value counts.
+        known = of.values if fault[0] is Reason.UNPAIRED else {}
+        pair = known.get(0, NAN), known.get(1, NAN)
+        samples.append(Sample(of.source, of.time, *pair, fault[0].value))
 
     joining = Joining(deliver, drop, topics.cable_names, lambda: topics.pair_skew)
     arrivals = [
@@ -182,6 +178,6 @@ def tension_samples(
     ]
     comes_late = bool(clocked.late & found.messages.keys())
     for time, order, topic, values in sorted(arrivals, key=lambda of: of[0 if comes_late else 1]):
-        joining.take(values, time if topic in clocked.rising else 0, time, (order, values))
+        joining.take(values, time if topic in clocked.rising else 0, time, order)
     joining.forget()
     return sorted(samples, key=lambda of: of.time if comes_late else of.order)
