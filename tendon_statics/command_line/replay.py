@@ -89,11 +89,8 @@ def run(options: argparse.Namespace) -> int:
     """Replay, write the samples, print a summary."""
     write = _writer(options.output)
     unit, recording = unit_and_recording(options)
-    if write is not None and _is_within(options.output, options.data):
-        raise OutputError(
-            f'{options.output}: it is the recording itself, or lies in it, which must stay as it '
-            'is; name another file'
-        )
+    if write is not None:
+        refuse_within(options.output, options.data)
     replayed = replay_from(options, unit, unit.design, recording)
     facts = replay_facts(replayed, unit, unit.design)
     tips = None
@@ -139,11 +136,21 @@ def replay_from(
     )
 
 
-def _is_within(path: Path, recording: Path) -> bool:
-    """Whether a file is the recording, or would become part of the bag that is or holds it."""
-    path, recording = path.resolve(), recording.resolve()
-    into_its_bag = path.parent == recording.parent and (path.parent / 'metadata.yaml').exists()
-    return path.is_relative_to(recording) or (into_its_bag and path.suffix == '.mcap')
+def refuse_within(path: Path, recording: Path) -> None:
+    """Keep a recording from being written over.
+
+    Raises
+    ------
+    OutputError
+        If a file is the recording, or would become part of the bag that is or holds it.
+    """
+    output, data = path.resolve(), recording.resolve()
+    into_its_bag = output.parent == data.parent and (output.parent / 'metadata.yaml').exists()
+    if output.is_relative_to(data) or (into_its_bag and output.suffix == '.mcap'):
+        raise OutputError(
+            f'{path}: it is the recording itself, or lies in it, which must stay as it is; name '
+            'another file'
+        )
 
 
 def _writer(path: Path | None) -> _Writer | None:

@@ -1,4 +1,4 @@
-"""`Quantities.parse`: titles that are meant for a quantity are read or refused, never overlooked."""
+"""`Quantities`: titles that are meant for a quantity are read or refused, never overlooked."""
 
 import numpy as np
 import pytest
