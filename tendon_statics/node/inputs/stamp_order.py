@@ -34,9 +34,9 @@ class StampOrder:
         """Whether it has taken a stamp."""
         return self._newest is not None
 
-    def objection(self, stamp: Time) -> Fault | None:
-        """Return what is against this stamp, None if it is in order."""
-        time, newest = nanoseconds(stamp), self._newest
+    def objection(self, time: int) -> Fault | None:
+        """Return what is against a stamp in ns, None if it is in order."""
+        newest = self._newest
         self._rising = self._rising + 1 if time > self._before else 1
         self._before = time
         if newest is None or time > newest or (self.is_loose and self._rising >= RISING):

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from ...tensions.named_values import NamedValues
-from ...tensions.pairing import Pairing, Single
+from ...tensions.pairing import Pairing, Part
 from ...tensions.reason import Reason
 from ..errors import RecordingError
 from .bag_storage import Message, Messages, without_copies
@@ -88,8 +88,8 @@ def find_tensions(bag: Messages, names: Sequence[str], topics: BagTopics) -> Ten
         return TensionMessages(
             found,
             {
-                name_l: [NamedValues(value_l=value(message)) for message in found[name_l]],
-                name_s: [NamedValues(value_s=value(message)) for message in found[name_s]],
+                name_l: [NamedValues((value(message), None)) for message in found[name_l]],
+                name_s: [NamedValues((None, value(message))) for message in found[name_s]],
             },
         )
     return _of_one_topic(bag, names[0], found[names[0]], topics)
@@ -107,9 +107,8 @@ def _of_one_topic(
     """
     read = cables_in(topics)
     values = [read(message) for message in messages]
-    has_l = any(value.value_l is not None for value in values)
-    has_s = any(value.value_s is not None for value in values)
-    if not (has_l and has_s):
+    pairs = [value.values for value in values if value.values]
+    if not all(any(pair[cable] is not None for pair in pairs) for cable in (0, 1)):
         raise RecordingError(_nothing(name, messages, values, topics))
     ours = [m for m, value in zip(messages, values, strict=True) if not value.is_foreign]
     ours = without_copies(bag, name, ours)
@@ -156,30 +155,29 @@ def tension_samples(
     """
     samples: list[Sample] = []
 
-    def deliver(of_l: Single, of_s: Single) -> None:
-        later = max(of_l, of_s, key=lambda single: single.time)
-        order = max(of_l.source, of_s.source)
-        samples.append(Sample(order, later.time, of_l.value, of_s.value))
+    def deliver(parts: list[Part]) -> None:
+        of_l, of_s = parts
+        order, time = max(of_l.source, of_s.source), max(of_l.time, of_s.time)
+        samples.append(Sample(order, time, of_l.values[0], of_s.values[1]))
 
-    def drop(cable: int, of: Single) -> None:
-        pair = (of.value, NAN) if cable == 0 else (NAN, of.value)
+    def drop(of: Part) -> None:
+        pair = of.values.get(0, NAN), of.values.get(1, NAN)
         samples.append(Sample(of.source, of.time, *pair, Reason.UNPAIRED.value))
 
-    pairing = Pairing(lambda: max_skew, deliver, drop)
+    pairing = Pairing(2, lambda: max_skew, deliver, drop)
     arrivals = [
         (message.order, times[message.order], values)
         for topic, messages in found.messages.items()
         for message, values in zip(messages, found.values[topic], strict=True)
     ]
     for order, time, values in sorted(arrivals, key=lambda arrival: arrival[0]):
-        value_l, value_s, fault = values
-        if fault is not None:
-            samples.append(Sample(order, time, NAN, NAN, fault[0].value))
-        elif value_l is not None and value_s is not None:
-            samples.append(Sample(order, time, value_l, value_s))
-        elif value_l is not None:
-            pairing.take(0, Single(time, value_l, order))
-        elif value_s is not None:
-            pairing.take(1, Single(time, value_s, order))
+        if values.fault is not None:
+            samples.append(Sample(order, time, NAN, NAN, values.fault[0].value))
+            continue
+        known = {cable: of for cable, of in enumerate(values.values) if of is not None}
+        if len(known) == 2:
+            samples.append(Sample(order, time, known[0], known[1]))
+        else:
+            pairing.take(Part(time, known, order))
     pairing.forget()
     return sorted(samples, key=lambda sample: sample.order)
