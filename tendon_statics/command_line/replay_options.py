@@ -130,11 +130,8 @@ def replayed(
     if path is not None and path.suffix not in endings:  # before the work, lest that be in vain
         raise OutputError(f'{path}: a replay is written to a file ending in {", ".join(endings)}')
     unit, recording = unit_and_recording(options)
-    if path is not None and _is_within(path, options.data):
-        raise OutputError(
-            f'{path}: it is the recording itself, or lies in it, which must stay as it is; name '
-            'another file'
-        )
+    if path is not None:
+        refuse_within(path, options.data)
     return Replayed(
         unit,
         recording,
@@ -183,8 +180,18 @@ def replay_from(
     )
 
 
-def _is_within(path: Path, recording: Path) -> bool:
-    """Whether a file is the recording, or would become part of the bag that is or holds it."""
-    path, recording = path.resolve(), recording.resolve()
-    into_its_bag = path.parent == recording.parent and (path.parent / 'metadata.yaml').exists()
-    return path.is_relative_to(recording) or (into_its_bag and path.suffix == '.mcap')
+def refuse_within(path: Path, recording: Path) -> None:
+    """Keep a recording from being written over.
+
+    Raises
+    ------
+    OutputError
+        If a file is the recording, or would become part of the bag that is or holds it.
+    """
+    output, data = path.resolve(), recording.resolve()
+    into_its_bag = output.parent == data.parent and (output.parent / 'metadata.yaml').exists()
+    if output.is_relative_to(data) or (into_its_bag and output.suffix == '.mcap'):
+        raise OutputError(
+            f'{path}: it is the recording itself, or lies in it, which must stay as it is; name '
+            'another file'
+        )

@@ -39,10 +39,6 @@ class ArmRecording(Session):
         object.__setattr__(self, 'bend_angles', angles)
         super().__post_init__()
 
-    def __len__(self) -> int:
-        return len(next(iter(self.cable_tensions.values())))
-
-    def tensions(self) -> list[tuple[float, ...]]:
-        """Tensions of every sample in the arm's order of cables, as plain numbers in N."""
-        columns = (values.tolist() for values in self.cable_tensions.values())
-        return list(zip(*columns, strict=True))
+    def cables(self) -> tuple[Floats, ...]:
+        """Tensions of each cable in N, in the arm's order."""
+        return tuple(self.cable_tensions.values())

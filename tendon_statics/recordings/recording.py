@@ -49,12 +49,9 @@ class Recording(Session):
             object.__setattr__(self, 'state', self._list('state', self.state))
         super().__post_init__()
 
-    def __len__(self) -> int:
-        return len(self.tension_l)
-
-    def tensions(self) -> list[tuple[float, float]]:
-        """T_l and T_s of every sample, as plain numbers in N."""
-        return list(zip(self.tension_l.tolist(), self.tension_s.tolist(), strict=True))
+    def cables(self) -> tuple[Floats, Floats]:
+        """T_l and T_s in N."""
+        return self.tension_l, self.tension_s
 
     def part(self, which: npt.NDArray[np.bool_]) -> Recording:
         """Return a recording of some of the samples, given as an array of shape ``(n,)``."""

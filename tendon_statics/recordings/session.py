@@ -80,12 +80,16 @@ class Session(ABC):
             object.__setattr__(self, lines, tuple(map(one_line, getattr(self, lines))))
 
     @abstractmethod
+    def cables(self) -> tuple[Floats, ...]:
+        """Tensions of each cable in N, in the order of the unit or arm."""
+
     def __len__(self) -> int:
         """Return the number of samples."""
+        return len(self.cables()[0])
 
-    @abstractmethod
-    def tensions(self) -> Sequence[tuple[float, ...]]:
+    def tensions(self) -> list[tuple[float, ...]]:
         """Tensions of all cables of every sample, as plain numbers in N."""
+        return list(zip(*(tensions.tolist() for tensions in self.cables()), strict=True))
 
     def loads(self, load: Load) -> Load | list[Load]:
         """Return what acts beside the cables: one load, or that of each sample.
