@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
+from ..physics import BendAngleError
 from .arm_estimate import ArmEstimate
 from .arm_settings import ArmSettings
 from .arm_tracking import ArmTracking
+from .estimate import KnownLoad, Sample
 from .health import Health
 from .method import WayOfEstimating
 from .reading_estimator import ReadingEstimator
@@ -45,13 +48,27 @@ class ArmFollower(ReadingEstimator[ArmSettings, ArmEstimate]):
         self._told_at = now
         return f'the joints are at {", ".join(f"{angle:.6g}" for angle in start)} rad'
 
-    def measure(self, bend_angles: Mapping[int, float], now: float) -> None:
-        """Take angles in rad that sensors say, by the joint, counted from 1 at the base.
+    def imagine(self, tensions: tuple[float, ...], known: KnownLoad) -> ArmEstimate:
+        """Work out where tensions in N would take the arm from where it is; it stays.
 
         Raises
         ------
-        BendAngleError
-            If one is not a number or beyond the stop; those before it count.
+        TensionError, ArmError
+            If they do not seat a joint, or the arm is not followed to rest.
         """
-        self._method.measure(bend_angles)
-        self._told_at = now
+        return self._method.imagine(Sample(tensions, known, math.nan))
+
+    def measure(self, bend_angles: Mapping[int, float], now: float) -> list[BendAngleError]:
+        """Take angles in rad that sensors say, by the joint, counted from 1 at the base.
+
+        Returned is why some are of no use: not a number, or beyond the stop.
+        """
+        faults = []
+        for joint, angle in bend_angles.items():
+            try:
+                self._method.measure({joint: angle})
+            except BendAngleError as error:
+                faults.append(error)
+        if len(bend_angles) - len(faults) == len(self.settings.arm.units):
+            self._told_at = now  # Of the other joints nobody vouches.
+        return faults

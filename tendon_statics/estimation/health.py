@@ -52,7 +52,7 @@ class Health:
         self.stale = False
         self._since = time.monotonic()
         self._newest: float | None = None
-        self._estimate: AnyEstimate | None = None
+        self.newest: AnyEstimate | None = None
         self._rate: float | None = None
         self._logged: set[Remark] = set()
         self._to_log: list[Remark] = []
@@ -84,7 +84,7 @@ class Health:
         self.solved += 1
         self.stale = False
         self._newest = time.monotonic()
-        self._estimate = estimate
+        self.newest = estimate
         self._solve_time += solve_time
         self._longest_solve = max(self._longest_solve, solve_time)
         for remark in estimate.remarks:
@@ -99,8 +99,8 @@ class Health:
 
     def look_closer(self) -> None:
         """Look at the newest estimate for what takes too long to be looked at in each."""
-        if self._estimate is not None and not self.stale:
-            self._at_a_look = self._estimate.slow_remarks
+        if self.newest is not None and not self.stale:
+            self._at_a_look = self.newest.slow_remarks
             for remark in self._at_a_look:
                 self._note(remark)
 
@@ -154,7 +154,7 @@ class Health:
     @property
     def summary(self) -> str:
         """What the newest tensions mean, in a word or few; empty if there are none yet."""
-        return '' if self._estimate is None else self._estimate.summary
+        return '' if self.newest is None else self.newest.summary
 
     def values(self) -> dict[str, str]:
         """What was counted and measured, by what it is."""
@@ -209,5 +209,5 @@ class Health:
 
     def _place_of(self, remark: Remark) -> str:
         """Say of which part the newest estimate has a remark, if it has several parts."""
-        place = '' if self._estimate is None else self._estimate.place_of(remark)
+        place = '' if self.newest is None else self.newest.place_of(remark)
         return f': {place}' if place else ''

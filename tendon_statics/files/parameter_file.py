@@ -16,6 +16,9 @@ T = TypeVar('T')
 ESTIMATOR = 'estimator'
 """Name of the node that computes with a unit, in whatever namespace"""
 
+ESTIMATORS = (ESTIMATOR, 'arm_estimator')
+"""Nodes for which a parameter file that is for others alone is refused"""
+
 
 def read_parameters(path: Path) -> object:
     """Read a parameter file, as strictly as ROS and this package need it to mean one thing.

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 
 WHAT = {
     'estimator': 'Bend angle and joint pressure of one unit from its cable tensions, as a node.',
+    'arm_estimator': 'Bend angles and pressures of an arm from its cable tensions, as a node.',
     'pulley_driver': 'Plays recorded tensions where a rig has motor drivers, as a node.',
 }
 """Program → what it does"""
@@ -31,6 +32,7 @@ def node_help(name: str, arguments: Sequence[str]) -> str:
 
 
 def _help(name: str) -> str:
+    from ..files.arm_parameters import ARM_PARAMETERS, cable_table
     from ..files.driver_parameters import DRIVER_PARAMETERS
     from ..files.estimator_parameters import ESTIMATOR_PARAMETERS
 
@@ -49,6 +51,9 @@ def _help(name: str) -> str:
     if name == 'estimator':
         lines += _lines(ESTIMATOR_PARAMETERS)
         lines.append("  design....: the unit's design; `tendon-statics design` lists it")
+    elif name == 'arm_estimator':
+        lines += _lines(ARM_PARAMETERS)
+        lines += _lines(cable_table(('NAME',)))
     else:
         lines += _lines(DRIVER_PARAMETERS)
     return '\n'.join(lines)

@@ -143,11 +143,13 @@ class Services:
             return response
 
 
-def say_interfaces_are_missing(node: ManagedEstimator[Any, Any], *offered: str) -> None:
+def say_interfaces_are_missing(
+    node: ManagedEstimator[Any, Any], *offered: str, why: str = messages.INTERFACES_MISSING
+) -> None:
     """Warn that a node offers less without the package nested in interfaces/."""
     node.get_logger().warning(
         f'No {", ".join(offered[:-1])} and {offered[-1]}, since tendon_statics_interfaces is not '
-        f'there or older than this ({messages.INTERFACES_MISSING}). It is in the folder '
+        f'there or older than this ({why}). It is in the folder '
         'interfaces/: colcon build --base-paths . interfaces'
     )
 
