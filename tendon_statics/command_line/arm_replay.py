@@ -8,7 +8,7 @@ from pathlib import Path
 from ..files.output_file import OutputError
 from ..recordings.replay.table_output import write_table
 from .arm_recording import add_arm_recording_options, followed_arm
-from .arm_replay_text import JOINT_TITLES, arm_facts, joint_rows
+from .arm_replay_text import arm_facts, joint_table
 from .options import say_written
 from .progress import with_progress
 from .recording_options import report_damage
@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
     if path is not None:
         write_table(path, replayed.columns(), with_progress)
     print(fact_lines(arm_facts(replayed, followed.hints)))
-    print('\n' + markdown_table(JOINT_TITLES, joint_rows(replayed)))
+    print('\n' + markdown_table(*joint_table(replayed)))
     if path is not None:
         say_written(path, options)
     return report_damage(replayed.recording)

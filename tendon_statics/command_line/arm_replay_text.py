@@ -16,12 +16,14 @@ from .load_text import load_text
 from .replay_text import invalid_text, recording_facts
 from .tables import Facts
 
-JOINT_TITLES = (
+_TITLES = (
     *('joint:', 'held [%]:', 'slipping [%]:', 'at stop [%]:'),
     *('least [deg]:', 'greatest [deg]:', 'not assured:', 'interval [deg]:'),
     *('measured:', 'rms error [deg]:', 'within [%]:'),
 )
-"""Of a table with a row a joint; - is what is not there"""
+"""Of a table with a row a joint"""
+
+_NOTHING = '-'
 
 REGIMES = ('held', 'slipping', 'driven_to_stop')
 
@@ -62,9 +64,11 @@ def _tip_facts(replay: ArmReplay) -> Facts:
     return facts
 
 
-def joint_rows(replay: ArmReplay) -> list[list[str]]:
-    """What there is of each joint, as `JOINT_TITLES` has it."""
-    return [_joint_row(number, joint) for number, joint in enumerate(replay.joints, start=1)]
+def joint_table(replay: ArmReplay) -> tuple[list[str], list[list[str]]]:
+    """Titles and rows of a table of what there is of each joint."""
+    rows = [_joint_row(number, joint) for number, joint in enumerate(replay.joints, start=1)]
+    there = [place for place in range(len(_TITLES)) if any(r[place] != _NOTHING for r in rows)]
+    return [_TITLES[place] for place in there], [[row[place] for place in there] for row in rows]
 
 
 def _joint_row(number: int, joint: Replay) -> list[str]:
@@ -81,12 +85,12 @@ def _joint_row(number: int, joint: Replay) -> list[str]:
             else '--'
         ),
         str(summary.unsure),
-        '-' if band is None else f'{_DEGREES * band.width:.3g}',
-        '-' if error is None else str(error.samples),
-        '-'
+        _NOTHING if band is None else f'{_DEGREES * band.width:.3g}',
+        _NOTHING if error is None else str(error.samples),
+        _NOTHING
         if error is None or error.root_mean_square is None
         else f'{_DEGREES * error.root_mean_square:.3g}',
-        '-' if band is None or band.within is None else f'{100.0 * band.within:.4g}',
+        _NOTHING if band is None or band.within is None else f'{100.0 * band.within:.4g}',
     ]
 
 

@@ -41,7 +41,12 @@ def unit_from(options: argparse.Namespace) -> Unit:
 
 def design_file_and_node(options: argparse.Namespace) -> tuple[Path, str]:
     """Return the design file, and the full name of the estimator in it, empty if not said."""
-    return Path(options.design or default_design_path()), _full_name(options.node)
+    return design_path(options), _full_name(options.node)
+
+
+def design_path(options: argparse.Namespace) -> Path:
+    """Return the design file that ``--design`` names, or the installed default."""
+    return Path(options.design or default_design_path())
 
 
 def design_name(options: argparse.Namespace) -> str:

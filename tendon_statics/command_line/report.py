@@ -38,6 +38,7 @@ from .options import (
     add_design_option,
     add_load_options,
     design_name,
+    design_path,
     say_written,
     tension_stddev_from,
     tension_stddev_of,
@@ -109,7 +110,7 @@ def run(options: argparse.Namespace) -> int:
         '<h2>Design</h2>',
         _design_table(start, design),
         '<h2>How to make it again</h2>',
-        fact_table(origin_facts(options, recording)),
+        fact_table(origin_facts(options, recording, [design_path(options)])),
     ]
     write_page(path, f'Recorded session {recording.name}', parts)
     say_written(path, options)

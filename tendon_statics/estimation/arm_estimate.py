@@ -137,16 +137,16 @@ class ArmEstimate(AnyEstimate):
     def slow_remarks(self) -> list[Remark]:
         """What else is not."""
         return [
-            remark for remark in (Remark.NOISE, Remark.OTHER_ROOT) if any(self._joints(remark))
+            remark for remark in (Remark.NOISE, Remark.OTHER_ROOT) if any(self.joints_with(remark))
         ]
 
     def place_of(self, remark: Remark) -> str:
         """Return the names of the joints that a remark is of."""
-        joints = zip(self.settings.joint_names, self._joints(remark), strict=True)
+        joints = zip(self.settings.joint_names, self.joints_with(remark), strict=True)
         return ', '.join(name for name, has_it in joints if has_it)
 
-    def _joints(self, remark: Remark) -> list[bool]:
-        """Which joints have a remark, as far as it is of joints."""
+    def joints_with(self, remark: Remark) -> list[bool]:
+        """Return which joints have a remark, as far as it is of joints."""
         joints = self.state.joints
         if remark is Remark.UNASSURED:
             return [not assured for assured in self.angles_assured]
