@@ -711,7 +711,7 @@ def test_a_unit_of_next_to_no_weight_does_not_end_the_node(listener):
 
 def test_every_name_can_be_remapped(listener):
     arguments = ('-r', '__ns:=/left', '-r', 'tensions:=/tensions', '-r', '__node:=joint_1')
-    moved = (f'{own}:=/estimator/{own[2:]}' for own in (f'~/{topic}' for topic in TOPICS))
+    moved = (f'~/{own}:=/estimator/{own}' for own in (*TOPICS, 'get_state'))
     with listener.estimator(*arguments, *(part for rule in moved for part in ('-r', rule))):
         assert listener.answer(*SLIPPING) == 'equilibrium'
         listener.wait_for_node('joint_1', '/left')
