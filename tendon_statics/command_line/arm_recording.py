@@ -16,6 +16,7 @@ from ..files.parameter_file import node_parameters, read_parameters
 from ..files.parameter_form import ParameterFileError
 from ..files.parameter_kinds import SettingError
 from ..physics import ArmError, Load
+from ..physics.deviations import TENSION_STDDEV
 from ..recordings.arm_recording import ArmRecording
 from ..recordings.hints import arm_hints
 from ..recordings.reading.load import ENDINGS, load_arm_recording
@@ -24,7 +25,7 @@ from ..recordings.replay.arm_estimates import replay_arm
 from ..recordings.replay.arm_result import ArmReplay
 from ..recordings.scaling import of_arm
 from .arm_options import add_arm_options, bend_angles_from, load_from
-from .options import TENSION_STDDEV, UsageError, add_tension_stddev_option
+from .options import UsageError, add_tension_stddev_option
 from .progress import with_progress
 from .recording_options import add_table_options, table_from
 
