@@ -32,7 +32,8 @@ from tendon_statics.command_line.main import main as run
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = (
     'README.md',
-    *('docs/arm.md', 'docs/calibration.md', 'docs/contact_laws.md', 'docs/recordings.md'),
+    *('docs/arm.md', 'docs/calibration.md', 'docs/command_line.md', 'docs/contact_laws.md'),
+    *('docs/filter.md', 'docs/recordings.md'),
     *('docs/model.md', 'docs/node.md', 'docs/node_reference.md', 'docs/rig.md'),
     *('docs/security.md', 'docs/tip_force.md', 'docs/validation.md', 'docs/view.md'),
 )
