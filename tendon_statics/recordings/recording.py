@@ -112,8 +112,10 @@ class Recording:
         load : Load
             What of it was not recorded.
         """
-        if not self.has_load:
-            return load
+        return self.sample_loads(load).loads() if self.has_load else load
+
+    def sample_loads(self, load: Load) -> SampleLoads:
+        """Return the same as arrays, of each sample in any case."""
         return SampleLoads.of(
             load,
             len(self),
@@ -122,7 +124,7 @@ class Recording:
                 for quantity in OF_LOAD
                 for values in [getattr(self, quantity)]
             },
-        ).loads()
+        )
 
     def part(self, which: npt.NDArray[np.bool_]) -> Recording:
         """Return a recording of some of the samples, given as an array of shape ``(n,)``."""
