@@ -53,8 +53,7 @@ FIGURES = {
     '--bend-angle-stddev-deg 0.29 --pressure-stddev 8',
     'docs/hysteresis.svg': 'plot hysteresis',
     'docs/map.svg': 'plot map --tension-l-range 0.8 1.2 --tension-s-range 1.6 2.4',
-    'docs/recording.svg': f'plot recording {SESSION} --estimation filtering '
-    '--tension-stddev 0.01',
+    'docs/recording.svg': f'plot recording {SESSION} --estimation filtering --tension-stddev 0.01',
     'docs/residual.svg': 'plot residual',
     'docs/tilted.svg': 'plot unit --base-tilt-deg 10',
     'docs/tip_force.svg': f'plot tip-force {SESSION} --direction 1 0 --distance 0.02',

@@ -14,7 +14,7 @@ from ..files.design_file import default_design_path
 from ..recordings.recording import Recording
 from .tables import Facts
 
-INTERNAL = ('command', 'run', 'verb')
+INTERNAL = ('command', 'run', 'verb', 'version')
 """Attributes of the options that nobody has typed by themselves"""
 
 CHUNK = 2**20
