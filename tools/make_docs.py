@@ -32,7 +32,8 @@ from tendon_statics.command_line.main import main as run
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = (
     'README.md',
-    *('docs/arm.md', 'docs/calibration.md', 'docs/contact_laws.md', 'docs/recordings.md'),
+    *('docs/arm.md', 'docs/calibration.md', 'docs/command_line.md', 'docs/contact_laws.md'),
+    *('docs/filter.md', 'docs/recordings.md'),
     *('docs/model.md', 'docs/node.md', 'docs/node_reference.md', 'docs/rig.md'),
     *('docs/security.md', 'docs/tip_force.md', 'docs/validation.md', 'docs/view.md'),
 )
@@ -52,7 +53,7 @@ FIGURES = {
     '--bend-angle-stddev-deg 0.29 --pressure-stddev 8',
     'docs/hysteresis.svg': 'plot hysteresis',
     'docs/map.svg': 'plot map --tension-l-range 0.8 1.2 --tension-s-range 1.6 2.4',
-    'docs/recording.svg': f'plot recording {SESSION}',
+    'docs/recording.svg': f'plot recording {SESSION} --estimation filtering --tension-stddev 0.01',
     'docs/residual.svg': 'plot residual',
     'docs/tilted.svg': 'plot unit --base-tilt-deg 10',
     'docs/tip_force.svg': f'plot tip-force {SESSION} --direction 1 0 --distance 0.02',

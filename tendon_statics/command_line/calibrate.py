@@ -9,8 +9,7 @@ from pathlib import Path
 from ..files.design_file import save_design
 from ..files.output_file import OutputError
 from ..files.unit_file import Unit
-from ..physics import Calibration
-from ..physics.calibration import LawComparison
+from ..physics.calibration import Calibration, LawComparison
 from ..physics.calibration.load_cells import AS_MEASURED
 from ..recordings.plausible_fit import objections
 from ..recordings.recording import Recording

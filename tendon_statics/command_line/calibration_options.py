@@ -9,10 +9,18 @@ from importlib.util import find_spec
 from typing import Any, NamedTuple
 
 from ..files.unit_file import Unit
-from ..physics import CONTACT_LAWS, Calibration, CalibrationError, DesignError, calibrate
-from ..physics.calibration import DEFAULT_FIT, SLIPPING, LawComparison, compare_laws
+from ..physics import CalibrationError, DesignError
+from ..physics.calibration import (
+    DEFAULT_FIT,
+    SLIPPING,
+    Calibration,
+    LawComparison,
+    calibrate,
+    compare_laws,
+)
 from ..physics.calibration.parameters import checked_fit
 from ..physics.calibration.sessions import follow_each_other
+from ..physics.contact import CONTACT_LAWS
 from ..recordings.errors import RecordingError
 from ..recordings.hints import hints
 from ..recordings.motion import mark_motion

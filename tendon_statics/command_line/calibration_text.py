@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..physics import Calibration
-from ..physics.calibration import HELD, SLIPPING, FittedParameter, LawComparison
+from ..physics.calibration import HELD, SLIPPING, Calibration, FittedParameter, LawComparison
 from ..physics.calibration.law_comparison import LawFit
 from ..physics.calibration.parameters import fit_parameters
 from .tables import Facts, fact_lines, markdown_table

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..physics import Calibration
-from ..physics.calibration import HELD, SLIPPING
+from ..physics.calibration import HELD, SLIPPING, Calibration
 from ..physics.calibration.boundary_distance import boundary_distance
 from ..recordings.recording import Recording
 from .calibration_options import add_calibration_options, calibration_from

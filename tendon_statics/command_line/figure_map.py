@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..physics import UPRIGHT, EquilibriumBatch, Load, Regime, paper
-from ..physics.batch import REGIME_CODES
+from ..physics import UPRIGHT, Load, Regime, paper
+from ..physics.batch import REGIME_CODES, EquilibriumBatch
 from ..recordings.session import Floats
 from .options import add_design_option
 from .pair_options import setting_title

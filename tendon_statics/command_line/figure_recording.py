@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..estimation.regimes import INVALID, REGIME_COLOURS
 from ..physics import JointDesign
 from ..recordings.replay.result import Replay
+from ..recordings.replay.slip_tensions import slip_tensions
 from ..recordings.session import Floats, Session
 from .figures import BLUE, GREY, VERMILION
 from .options import add_design_option, add_load_options, add_tension_stddev_option
@@ -27,9 +28,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-SIZE = (7.2, 6.4)
+SIZE = (7.2, 8.2)
 
-MANY = 5000
+DOUBT = '#f3e3c3'
+"""Behind an angle that is not assured"""
+
+MANY = 1000
 """Samples above which they are drawn as an image, so that the file stays small"""
 
 _COLOURS = {regime.value: colour for regime, colour in REGIME_COLOURS.items()}
@@ -55,23 +59,21 @@ def draw(drawing: Figure, options: argparse.Namespace) -> int:
 
 
 def draw_replay(drawing: Figure, design: JointDesign, replayed: Replay) -> None:
-    """Draw tensions, angle, slip margin and regime, one above the other over time."""
+    """Draw tensions, angle, pressure, slip margin and regime, one above the other over time."""
     recording = replayed.recording
     times, label = places_of(recording)
-    of_tensions, of_angle, of_margin, of_regime = drawing.subplots(
-        4, sharex=True, height_ratios=(3.0, 4.0, 2.5, 0.6)
+    of_tensions, of_angle, of_pressure, of_margin, of_regime = drawing.subplots(
+        5, sharex=True, height_ratios=(4.0, 4.0, 2.6, 2.0, 0.6)
     )
-    of_tensions.plot(times, recording.tension_l, color=BLUE, linewidth=1.2, label='T_l')
-    of_tensions.plot(times, recording.tension_s, color=VERMILION, linewidth=1.2, label='T_s')
-    of_tensions.set_ylabel('tension [N]')
-    _legend(of_tensions)
-
+    _draw_tensions(of_tensions, times, design, replayed)
     _draw_angles(of_angle, times, replayed)
     stop = np.degrees(design.max_bend_angle)
     of_angle.set_ylim(-1.35 * stop, 1.35 * stop)
     of_angle.set_yticks([-stop, 0.0, stop], [f'−{stop:.3g}', '0', f'{stop:.3g}'])
     of_angle.set_ylabel('bend angle θ [°]')
     _legend(of_angle)
+
+    _draw_pressures(of_pressure, times, replayed)
 
     of_margin.axhspan(-1.0, 1.0, color='#e6f1f8', label='friction can hold')
     of_margin.plot(
@@ -96,8 +98,63 @@ def places_of(recording: Session) -> tuple[Floats, str]:
     return recording.time, 'time [s]'
 
 
+def _draw_tensions(axes: Axes, times: Any, design: JointDesign, replayed: Replay) -> None:
+    """Draw them, and those at which the unit is to slip where it was measured to be."""
+    recording = replayed.recording
+    at_slip = slip_tensions(design, replayed) or (None, None)
+    for measured, predicted, colour, name in (
+        (recording.tension_l, at_slip[0], BLUE, 'T_l'),
+        (recording.tension_s, at_slip[1], VERMILION, 'T_s'),
+    ):
+        axes.plot(times, measured, color=colour, linewidth=1.2, label=name)
+        if predicted is not None and np.isfinite(predicted).any():
+            axes.plot(
+                *(times, predicted),
+                color=colour,
+                linewidth=1.0,
+                linestyle=(0, (1.5, 1.5)),
+                label=f'{name} at slip, predicted',
+            )
+    axes.set_ylabel('tension [N]')
+    _legend(axes)
+
+
+def _draw_pressures(axes: Axes, times: Any, replayed: Replay) -> None:
+    """Draw the estimated pressure over the measured one."""
+    recording = replayed.recording
+    is_image = len(recording) > MANY
+    if recording.pressure is not None:
+        axes.plot(
+            *(times, recording.pressure, '.'),
+            markersize=5.0,
+            color=GREY,
+            label='measured',
+            rasterized=is_image,
+        )
+    axes.plot(
+        *(times, replayed.pressure, '.'),
+        markersize=2.5,
+        color=VERMILION,
+        label=f'estimated ({replayed.estimation})',
+        rasterized=is_image,
+    )
+    axes.set_ylabel('pressure [Pa]')
+    if np.isfinite(replayed.pressure).any():
+        _legend(axes)
+
+
 def _draw_angles(axes: Axes, times: Any, replayed: Replay) -> None:
     recording = replayed.recording
+    in_doubt = np.isfinite(replayed.bend_angle) & ~replayed.angle_assured
+    if in_doubt.any():
+        axes.broken_barh(
+            _runs(times, in_doubt),
+            (0.0, 1.0),
+            transform=axes.get_xaxis_transform(),
+            color=DOUBT,
+            linewidth=0.0,
+            label='in doubt',
+        )
     if recording.bend_angle is not None:
         axes.plot(
             times, np.degrees(recording.bend_angle), color=GREY, linewidth=4.0, label='measured'
@@ -154,25 +211,29 @@ def _draw_regimes(axes: Axes, times: Any, replayed: Replay) -> None:
 def regime_bars(
     times: Any, regimes: NDArray[np.str_]
 ) -> Iterator[tuple[str, str, list[tuple[float, float]]]]:
-    """Each regime that is there, its colour, and the times from which and for how long it lasts.
-
-    Runs of one regime are one bar.
-    """
-    ends = np.append(times[1:], times[-1])
+    """Each regime that is there, its colour, and the times from which and for how long it lasts."""
     for regime, colour in {**_COLOURS, INVALID: 'black'}.items():
         where = regimes == regime
         if where.any():
-            edges = np.flatnonzero(np.diff(np.concatenate([[False], where, [False]]).astype(int)))
-            yield (
-                regime,
-                colour,
-                [
-                    (times[first], ends[after - 1] - times[first])
-                    for first, after in edges.reshape(-1, 2)
-                ],
-            )
+            yield regime, colour, _runs(times, where)
+
+
+def _runs(times: Any, where: NDArray[np.bool_]) -> list[tuple[float, float]]:
+    """Return begin and length of each run of samples, as bars until the next sample."""
+    ends = np.append(times[1:], times[-1])
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], where, [False]]).astype(int)))
+    return [
+        (times[first], ends[after - 1] - times[first]) for first, after in edges.reshape(-1, 2)
+    ]
 
 
 def _legend(axes: Axes) -> None:
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc='lower right', bbox_to_anchor=(1.0, 0.97), ncols=3, frameon=False)
+        axes.legend(
+            loc='lower right',
+            bbox_to_anchor=(1.0, 0.97),
+            ncols=4,
+            frameon=False,
+            handlelength=1.4,
+            columnspacing=1.2,
+        )

@@ -13,7 +13,7 @@ from typing import Any
 from ..recordings.session import Session
 from .tables import Facts
 
-INTERNAL = ('command', 'run', 'verb', 'run_arm', 'arm_verb')
+INTERNAL = ('command', 'run', 'verb', 'run_arm', 'arm_verb', 'version')
 """Attributes of the options that nobody has typed by themselves"""
 
 CHUNK = 2**20

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from datetime import date
 from html import escape
 from importlib.metadata import version
 from pathlib import Path
 from string import Template
+from typing import TYPE_CHECKING
 
 from ..files.output_file import output_file
+from .figures import svg_of
 from .tables import Facts
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _PAGE = Template("""\
 <!DOCTYPE html>
@@ -28,16 +33,23 @@ table { border-collapse: collapse; margin: 1rem 0; font-size: 0.9rem; }
 th, td { text-align: left; padding: 0.25rem 0.9rem 0.25rem 0; border-bottom: 1px solid #ddd;
          vertical-align: top; font-variant-numeric: tabular-nums; }
 .facts th { font-weight: 600; white-space: nowrap; }
+.facts td { overflow-wrap: anywhere; }
 .warning { border-left: 4px solid #D55E00; background: #fdf3ec; padding: 0.5rem 0.9rem;
            margin: 0.6rem 0; }
 footer { color: #666; font-size: 0.85rem; margin-top: 2.5rem; }
 .wide { overflow-x: auto; }
 $style
+@media screen and (max-width: 40rem) {
+  .wide svg { min-width: 36rem; }
+  .facts th { white-space: normal; overflow-wrap: anywhere; min-width: 6rem; }
+}
 @media print {
-  body { font-size: 11px; max-width: none; margin: 0; }
+  html { font-size: 11px; }
+  body { font-size: 1rem; max-width: none; margin: 0; }
   .wide { overflow: visible; }
+  h1, h2 { break-after: avoid; }
   thead { display: table-header-group; }
-  tr { break-inside: avoid; }
+  tr, svg { break-inside: avoid; }
 }
 </style>
 </head>
@@ -97,6 +109,11 @@ def fact_table(facts: Facts) -> str:
     """Return keywords with what there is to say of each, of plain text."""
     rows = ''.join(f'<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>' for k, v in facts)
     return f'<table class="facts">{rows}</table>'
+
+
+def figure(draw: Callable[[Figure], object], size: tuple[float, float]) -> str:
+    """Return a figure; where there is no room it keeps a legible size, and scrolls."""
+    return f'<div class="wide">{svg_of(draw, size)}</div>'
 
 
 def table(titles: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

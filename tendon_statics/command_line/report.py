@@ -33,7 +33,6 @@ from .calibration_text import (
 )
 from .figure_calibration import draw_calibration
 from .figure_recording import draw_replay
-from .figures import svg_of
 from .options import (
     add_design_option,
     add_load_options,
@@ -44,7 +43,7 @@ from .options import (
     tension_stddev_of,
 )
 from .origin import origin_facts
-from .page import fact_table, paragraph, table, warning, write_page
+from .page import fact_table, figure, paragraph, table, warning, write_page
 from .recorded_tip_force import recorded_tip_forces, tip_force_facts
 from .recording_options import add_recording_options, report_damage, unit_and_recording
 from .replay_options import add_estimation_options, initial_bend_angle_from, replay_from
@@ -138,7 +137,7 @@ def _replay_part(
     if replayed.error is not None:
         start, stddev = initial_bend_angle_from(options, unit), tension_stddev_from(options, unit)
         parts.append(paragraph(error_meaning(replayed, start, stddev, is_fitted=is_fitted)))
-    drawn = svg_of(
+    drawn = figure(
         lambda drawing: draw_replay(drawing, design, replayed),
         figure_recording.SIZE,
     )
@@ -160,7 +159,7 @@ def _tip_force_part(
     return [
         '<h2>Force at the tip</h2>',
         fact_table(tip_force_facts(found)),
-        svg_of(
+        figure(
             lambda drawing: figure_tip_force.draw_tip_forces(drawing, recording, found),
             figure_tip_force.SIZE,
         ),
@@ -182,7 +181,7 @@ def _calibration_part(fit: Fitted, recording: Recording, facts: Facts) -> list[s
     if len(names) > 1:
         parts.append(table(['correlation', *names], correlation_rows(calibration)))
     parts.append(
-        svg_of(
+        figure(
             lambda drawing: draw_calibration(drawing, calibration, recording),
             figure_calibration.SIZE,
         )

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..files.output_file import OutputError
-from ..physics import EquilibriumBatch
-from ..physics.batch import solve_batch
+from ..physics.batch import EquilibriumBatch, solve_batch
 from ..recordings.replay.table_output import write_arrays, write_table
 from .options import (
     UsageError,

@@ -4,14 +4,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from .admissible import admissible_angles, slip_margin
-from .contact import CONTACT_LAWS
-from .design import (
-    DesignChoice,
-    DesignParameter,
-    JointDesign,
-    design_fields,
-    design_parameters,
-)
+from .contact import CONTACT_LAWS as CONTACT_LAWS
+from .design import JointDesign, design_fields, design_parameters
 from .design_uncertainty import DesignUncertainty
 from .errors import (
     ArmError,
@@ -24,7 +18,8 @@ from .errors import (
     TensionError,
     UnreachableError,
 )
-from .forces import ContactCoefficients, ContactForces, ForceRemainder, contact_coefficients
+from .forces import ContactForces, ForceRemainder
+from .forces import contact_coefficients as contact_coefficients
 from .gradients import TensionGradient
 from .inverse import tensions_for
 from .load import UPRIGHT, Load
@@ -57,7 +52,6 @@ if TYPE_CHECKING:
     from .filter import FilterState, StickSlipFilter
 
 __all__ = [
-    'CONTACT_LAWS',
     'UPRIGHT',
     'Arm',
     'ArmError',
@@ -69,12 +63,9 @@ __all__ = [
     'Cable',
     'Calibration',
     'CalibrationError',
-    'ContactCoefficients',
     'ContactForces',
-    'DesignChoice',
     'DesignError',
     'DesignMisfitError',
-    'DesignParameter',
     'DesignUncertainty',
     'Equilibrium',
     'EquilibriumBatch',
@@ -103,7 +94,6 @@ __all__ = [
     'arm_tip_force',
     'calibrate',
     'compare_laws',
-    'contact_coefficients',
     'design_fields',
     'design_parameters',
     'residual',
@@ -117,33 +107,15 @@ __all__ = [
     'tip_force_of_state',
 ]
 
-
-_NEEDING_NUMPY = {
-    'Arm': '.arm',
-    'ArmState': '.arm',
-    'ArmTipForce': '.arm',
-    'ArmTracker': '.arm',
-    'ArmUnit': '.arm',
-    'Cable': '.arm',
-    'Calibration': '.calibration',
-    'EquilibriumBatch': '.batch',
-    'FilterState': '.filter',
-    'JointSlip': '.arm',
-    'LawComparison': '.calibration',
-    'StickSlipFilter': '.filter',
-    'TipPose': '.arm',
-    'arm_margins': '.arm',
-    'arm_slip_order': '.arm',
-    'arm_tensions_for': '.arm',
-    'arm_tip_force': '.arm',
-    'calibrate': '.calibration',
-    'compare_laws': '.calibration',
-    'solve_batch': '.batch',
-}
-"""Public name → the module that has it, loaded only by who asks for it"""
+_NEEDING_NUMPY = ('.arm', '.batch', '.filter', '.calibration')
+"""Modules that are loaded for who asks for a name of theirs, one after the other"""
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _NEEDING_NUMPY:
-        raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
-    return getattr(import_module(_NEEDING_NUMPY[name], __name__), name)
+    if name in __all__:
+        for place in _NEEDING_NUMPY:
+            module = import_module(place, __name__)
+            if name in module.__all__:
+                globals()[name] = getattr(module, name)
+                return globals()[name]
+    raise AttributeError(f'module {__name__!r} has no attribute {name!r}')

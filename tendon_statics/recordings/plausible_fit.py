@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..physics import Calibration
+from ..physics.calibration import Calibration
 from ..physics.calibration.parameters import fit_parameters
 
 FACTOR = 10.0

@@ -102,8 +102,10 @@ class Session(ABC):
         load : Load
             What of it was not recorded.
         """
-        if not self.has_load:
-            return load
+        return self.sample_loads(load).loads() if self.has_load else load
+
+    def sample_loads(self, load: Load) -> SampleLoads:
+        """Return the same as arrays, of each sample in any case."""
         return SampleLoads.of(
             load,
             len(self),
@@ -112,7 +114,7 @@ class Session(ABC):
                 for quantity in OF_LOAD
                 for values in [getattr(self, quantity)]
             },
-        ).loads()
+        )
 
     @property
     def has_load(self) -> bool:

@@ -7,8 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from ..physics import JointDesign, Load, Regime, solve_batch
-from ..physics.batch import INVALID, REGIME_CODES
+from ..physics import JointDesign, Load, Regime
+from ..physics.batch import INVALID, REGIME_CODES, solve_batch
 
 POINTS = 100
 """Pairs along each side"""
