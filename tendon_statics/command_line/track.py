@@ -9,6 +9,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from ..recordings.replay.estimates import replay
+from ..recordings.replay.summary import summary_of
 from ..recordings.replay.table_output import write_csv
 from .options import add_design_option, add_load_options
 from .progress import with_progress
@@ -20,6 +21,7 @@ from .recording_options import (
     unit_and_recording,
 )
 from .replay import add_initial_bend_angle_option, initial_bend_angle_from
+from .replay_text import noise_facts
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -55,4 +57,6 @@ def run(options: argparse.Namespace) -> int:
     }
     write_csv(sys.stdout, columns)
     report_notes(unit, recording)
+    for _, warning in noise_facts(summary_of(tracked)):
+        print(f'tendon-statics: {recording.name}: {warning}', file=sys.stderr)
     return report_damage(recording)
