@@ -211,7 +211,7 @@ def _draw_regimes(axes: Axes, times: Any, replayed: Replay) -> None:
 def regime_bars(
     times: Any, regimes: NDArray[np.str_]
 ) -> Iterator[tuple[str, str, list[tuple[float, float]]]]:
-    """Each regime that is there, its colour, and the times from which and for how long it lasts."""
+    """Each regime that is there, its colour, and its runs: from when on, for how long."""
     for regime, colour in {**_COLOURS, INVALID: 'black'}.items():
         where = regimes == regime
         if where.any():

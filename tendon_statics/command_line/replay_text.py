@@ -26,7 +26,7 @@ def replay_facts(replay: Replay, unit: Unit, design: JointDesign) -> Facts:
         *setting_facts(design, replay.load),
         ('estimation', replay.estimation),
         ('regimes', regimes_text(summary)),
-        *_noise_facts(summary),
+        *noise_facts(summary),
         *([('invalid', invalid)] if invalid else []),
         *_angle_facts(summary),
         *_band_facts(summary, replay.confidence),
@@ -73,7 +73,7 @@ def invalid_text(summary: ReplaySummary) -> str:
     return ', '.join(f'{reason} {count}' for reason, count in summary.invalid.items())
 
 
-def _noise_facts(summary: ReplaySummary) -> Facts:
+def noise_facts(summary: ReplaySummary) -> Facts:
     """Whether believing each sample is safe."""
     if not summary.noise_risks:
         return []

@@ -23,8 +23,7 @@ from ..physics import BendAngleError
 from ..tensions.reason import ReadingError, Reason
 from .diagnostics import Reports
 from .inputs.load import LoadInputs
-from .inputs.sources import Reading, TensionSource
-from .inputs.stamp_order import nanoseconds
+from .inputs.sources import Reading, TensionSource, nanoseconds
 from .inputs.subscriptions import Subscriptions
 from .outputs.publishers import Outputs
 from .parameters.changes import Changes

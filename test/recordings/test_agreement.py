@@ -1,12 +1,20 @@
 """Node and replay say the same of the same readings, with the same unit's file."""
 
 import math
+import random
+from collections import Counter
 
+import bags
 import numpy as np
+import pytest
+from builtin_interfaces.msg import Time
 from programs import run
 from ros_programs import wait_for
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Header
 
-from tendon_statics import default_design_path
+from tendon_statics import BagTopics, default_design_path
+from tendon_statics.node.inputs.sources import JointStateSource
 from tendon_statics.recordings.reading.load import load_recording
 
 GAINS = {
@@ -62,3 +70,46 @@ def test_of_the_same_readings_node_and_replay_say_the_same(listener, tmp_path):
     angles = [float(text or 'nan') for text in np.array(replayed['estimated_bend_angle'])[valid]]
     of_node = [estimate.bend_angle for estimate in estimates]
     np.testing.assert_allclose(of_node, angles, rtol=0.0, atol=1e-12)
+
+
+BOTH = ['cable_l', 'cable_s']
+KINDS = [
+    *((BOTH, [1.0, 2.0]), (BOTH[:1], [1.0]), (BOTH[1:], [2.0]), (['wheel'], [1.0])),
+    *(([*BOTH, 'wheel'], [1.0, 2.0]), (['wheel', *BOTH[::-1]], [9.0, 2.0, 1.0])),
+]
+"""Names and efforts of joint states"""
+
+
+@pytest.mark.parametrize('skew', [None, 0.02])
+@pytest.mark.parametrize('seed', range(6))
+def test_of_the_same_messages_node_and_replay_make_the_same_pairs(seed, skew, tmp_path):
+    """Of several publishers, with equal stamps, one cable a message, wrong lengths and others'."""
+    chosen, stamp, sent = random.Random(seed), 1, []
+    for number in range(60):
+        stamp += chosen.choice([0, 0, 2, 4, 6, 10])
+        names, efforts = chosen.choice(KINDS)
+        sent.append((stamp, names, [effort + 0.01 * number for effort in efforts]))
+    messages = [
+        ('/tensions', 0.001 * number, bags.joint_state(names, effort=efforts, time=0.001 * stamp))
+        for number, (stamp, names, efforts) in enumerate(sent)
+    ]
+    file = bags.write_bag(tmp_path / 'bag', messages)
+    recording = load_recording(file, BagTopics(tension_skew=skew))
+    pairs, drops = [], []
+    source = JointStateSource(
+        lambda reading: pairs.append(reading[:2]),
+        lambda reason, _: drops.append(reason.value),
+        ('cable_l', 'cable_s'),
+        lambda: skew or 0.005,  # as the parameter has it by default
+    )
+    for number, (stamp, names, efforts) in enumerate(sent):
+        seconds, rest = divmod(bags.ORIGIN + stamp * 10**6, 10**9)
+        header = Header(stamp=Time(sec=seconds, nanosec=rest))
+        message = JointState(header=header, name=names, effort=efforts)
+        if not source.is_foreign(message):
+            source.inputs['tensions'][1](message, bags.ORIGIN + number * 10**6)
+    source.forget()
+    found = list(zip(recording.tensions(), recording.known_faults, strict=True))
+    assert [pair for pair, fault in found if not fault] == pairs
+    assert Counter(fault for _, fault in found if fault) == Counter(drops)
+    assert {'repeated stamp', 'unpaired', 'wrong length'} >= set(drops) >= {'repeated stamp'}

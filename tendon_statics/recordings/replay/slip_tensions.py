@@ -8,7 +8,7 @@ import numpy as np
 
 from ...physics import JointDesign
 from ...physics.calibration.boundary_distance import Noise, boundary_distance
-from ..recording import Floats
+from ..session import Floats
 from .result import Replay
 
 NO_NOISE = Noise(1.0, 0.0, 0.0)
