@@ -13,7 +13,7 @@ from ..errors import RecordingError
 from ..progress import Progress, unseen
 from ..recording import Recording
 from ..session import OF_LOAD
-from .bag_beside import default_beside, find_beside, named_beside
+from .bag_beside import Beside, default_beside, find_beside, named_beside
 from .bag_storage import END_OF_TIME, Message, Messages, read_messages
 from .bag_tensions import find_tensions, tension_samples
 from .clock import Clocked, Stamped, Times, common_clock
@@ -49,7 +49,7 @@ def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Reco
     tensions = find_tensions(bag, names, topics)
     beside = find_beside(bag, topics)
     skew = round(min(topics.max_skew * 1e9, END_OF_TIME))
-    times, clocked = _times([tensions.messages, beside.messages], topics.clock, skew)
+    times, clocked = clocked_times([tensions.messages, beside.messages], topics.clock, skew)
     tension_skew = topics.max_skew if topics.tension_skew is None else topics.tension_skew
     samples = tension_samples(tensions, times, tension_skew)
     if clocked.late & tensions.messages.keys():
@@ -58,12 +58,7 @@ def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Reco
     origin = int(at.min())
 
     def joined(quantity: str) -> npt.NDArray[Any] | None:
-        series = beside.series.get(quantity)
-        if series is None:
-            return None
-        values = np.array([*series.values, '' if quantity == 'state' else np.nan])
-        there = np.array([times[message.order] for message in series.messages], np.int64)
-        return values[_nearest(there, at, LOAD_SKEW if quantity in OF_LOAD else skew)]
+        return joined_to(at, beside, quantity, times, skew)
 
     state = joined('state')
     load: dict[str, Any] = {quantity: joined(quantity) for quantity in OF_LOAD}
@@ -85,7 +80,32 @@ def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Reco
     )
 
 
-def _times(
+def joined_to(
+    at: Times, beside: Beside, quantity: str, times: Mapping[int, int], skew: int
+) -> npt.NDArray[Any] | None:
+    """Return what was measured nearest to some times, NaN where nothing was; None of no topic.
+
+    Parameters
+    ----------
+    at : array
+        In ns.
+    times : mapping
+        `Message.order` → time in ns.
+    skew : int
+        ns by which it may be apart, but for the load.
+    """
+    series = beside.series.get(quantity)
+    if series is None:
+        return None
+    values = np.array([*series.values, '' if quantity == 'state' else np.nan])
+    there = np.array([times[message.order] for message in series.messages], np.int64)
+    found: npt.NDArray[Any] = values[
+        _nearest(there, at, LOAD_SKEW if quantity in OF_LOAD else skew)
+    ]
+    return found
+
+
+def clocked_times(
     used: Sequence[Mapping[str, Sequence[Message]]], clock: str, skew: int
 ) -> tuple[dict[int, int], Clocked]:
     """Return the time of every message, by its order, as `common_clock` chooses it, and how.
