@@ -43,7 +43,7 @@ def of_unit(recording: Recording, unit: Unit) -> Recording:
         readings=(recording.tension_l, recording.tension_s) if applies else None,
         in_newtons=True,
         faults=faults,
-        notes=(*recording.notes, *said),
+        notes=(*recording.notes, *unit.misspelt, *said),
     )
 
 
