@@ -79,8 +79,8 @@ MEANINGS_OF_ARM = {
     'imu': MEANINGS['imu'],
     'base_pose': "the base's frame in a frame whose Z is up",
     'tip_wrench': "the force on the end of the last unit, in the base's frame",
-    'measured_joint_states': 'rad in `position`, from encoders or cameras, of all joints or some by '
-    'name: puts those joints there',
+    'measured_joint_states': 'rad in `position`, from encoders or cameras, of all joints or some '
+    'by name: puts those joints there',
     '~/joint_states': 'the bend angles of all joints for robot_state_publisher and RViz; only '
     'where determined',
     '~/tip_pose': "the end of the last unit in the base's frame, with covariance; only where "
