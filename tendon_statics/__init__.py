@@ -70,9 +70,10 @@ if TYPE_CHECKING:
         tip_force_intervals,
         tip_force_of_state,
     )
+    from .recordings.arm_recording import ArmRecording
     from .recordings.errors import RecordingError
     from .recordings.motion import mark_motion
-    from .recordings.reading.load import load_recording
+    from .recordings.reading.load import load_arm_recording, load_recording
     from .recordings.reading.table_options import TableOptions
     from .recordings.reading.topics import BagTopics
     from .recordings.recording import Recording
@@ -81,6 +82,7 @@ __all__ = [
     'UPRIGHT',
     'Arm',
     'ArmError',
+    'ArmRecording',
     'ArmState',
     'ArmTipForce',
     'ArmTracker',
@@ -128,6 +130,7 @@ __all__ = [
     'design_fields',
     'design_parameters',
     'load_arm',
+    'load_arm_recording',
     'load_design',
     'load_design_uncertainty',
     'load_recording',
@@ -145,12 +148,14 @@ __all__ = [
 ]
 
 _NOT_OF_PHYSICS = {
+    'ArmRecording': '.recordings.arm_recording',
     'BagTopics': '.recordings.reading.topics',
     'TableOptions': '.recordings.reading.table_options',
     'Recording': '.recordings.recording',
     'RecordingError': '.recordings.errors',
     'default_design_path': '.files.design_file',
     'load_arm': '.files.arm_file',
+    'load_arm_recording': '.recordings.reading.load',
     'load_design': '.files.design_file',
     'load_design_uncertainty': '.files.design_file',
     'load_recording': '.recordings.reading.load',
