@@ -203,20 +203,20 @@ def test_what_is_against_a_message_as_a_whole_is_said(arm):
 
 
 def test_measured_angles_put_the_joints_that_they_name(arm):
-    arm.answer(PULLED)
+    arm.answer(HELD)
     arm.measured.publish(JointState(name=['wheel'], position=[7.0]))
-    arm.measure(arm_joint_2=0.3, arm_joint_5=-0.2, arm_joint_3=9.0)
+    arm.measure(arm_joint_2=0.02, arm_joint_5=-0.01, arm_joint_3=9.0)
 
     def put():
-        return arm.answer(EVEN).bend_angles[1] == 0.3
+        return arm.answer(EVEN).bend_angles[1] == 0.02
 
     wait_for('the angle', put)
     angles = arm.answer(EVEN).bend_angles
-    assert angles[4] == -0.2
+    assert angles[4] == -0.01
     assert angles[2] != 9.0
     latest = json.loads(arm.trigger('solve_latest').message)
     assert latest['rejected_corrections'] == 1
-    assert latest['bend_angles'][1] == 0.3
+    assert latest['bend_angles'][1] == 0.02
 
 
 def test_the_service_solves_from_stated_angles_and_from_where_the_arm_is(arm):
@@ -262,7 +262,7 @@ def test_the_service_refuses_what_is_not_valid_with_the_reason(arm, request_of, 
 
 
 def test_one_status_says_how_the_arm_is_and_names_the_worst_joint(arm):
-    arm.answer(PULLED)
+    arm.answer(HELD)
     status = arm.status(OK, 'worst is arm_joint_')
     assert status.name == 'arm_estimator: estimation'
     assert status.hardware_id == 'arm'
@@ -326,11 +326,11 @@ def test_the_lifecycle_is_that_of_every_managed_node(client):
         assert client.change_state('configure')
         assert client.change_state('activate')
         client.greet(program)
-        assert all(client.answer(PULLED).angles_assured)
+        assert all(client.answer(HELD).angles_assured)
         assert client.change_state('deactivate')
         wait_for('stale', lambda: client.regimes[-1].regimes[0] == 'stale')
         assert client.change_state('activate')
-        assert not any(client.answer(PULLED).angles_assured)
+        assert not any(client.answer(HELD).angles_assured)
         assert program.end() == 0
 
 
