@@ -1,0 +1,335 @@
+"""`ArmFilter`: where an arm is, from noisy tensions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...filter import FilterState, StickSlipFilter
+from ...filter.lagged import SURE, LaggedFilter, check_least, check_stddev, drawn_to
+from ...filter.recent import Sample
+from ...filter.smoothing import Estimate
+from ...load import UPRIGHT, Load
+from ...state import Regime
+from ..arm import Arm
+from ..cables import Crossing, pair_at, slack_joint, transmitted
+from ..carried import at_tip
+from ..joints import check_bend_angles, check_joint, check_joint_angle
+from .ensemble import ArmEnsemble, JointSlips
+from .follow import Place
+from .state import ArmFilterState
+
+Floats = NDArray[np.float64]
+
+
+class ArmFilter(LaggedFilter[ArmFilterState, Place]):
+    """Follows an arm as `ArmTracker` does, where each tension is noisy.
+
+    As `StickSlipFilter` follows a unit: tensions are smoothed, slips are committed `lag` behind,
+    and what remains unsure is carried by members. A member is a whole arm, so that a slip of one
+    joint that loads another is seen by the other in all of them, each with errors of its own.
+
+    An arm of one unit with a cable on either side, whose cables have no friction, is the
+    `StickSlipFilter`, to the last bit.
+
+    Parameters
+    ----------
+    arm : Arm
+    bend_angles : sequence of float, optional
+        Where the joints are at first in rad, from the base on; None: the arm is straight.
+    bend_angle_stddev : float or sequence of float
+        Standard deviation of that, of each joint or of all alike.
+    tension_stddev : float
+        Standard deviation of the noise of each tension in N, from sample to sample.
+    tension_bias_stddev : float
+        Standard deviation of the constant error of each tension in N.
+    lag : float
+        Time in s after which what was found is committed.
+    seed : int
+        Of what tells the members apart; the same seed gives the same results.
+
+    Raises
+    ------
+    BendAngleError
+        If an angle is missing, not a number, or beyond its joint's stop.
+    ValueError
+        If a standard deviation or the lag is not allowed.
+    """
+
+    def __init__(
+        self,
+        arm: Arm,
+        *,
+        bend_angles: Sequence[float] | None = None,
+        bend_angle_stddev: float | Sequence[float] = 0.0,
+        tension_stddev: float,
+        tension_bias_stddev: float = 0.0,
+        lag: float = 0.15,
+        seed: int = 0,
+    ) -> None:
+        super().__init__(len(arm.cables), tension_stddev, tension_bias_stddev, lag)
+        self._arm = arm
+        self._ensemble = ArmEnsemble(arm, tension_bias_stddev, seed)
+        self._single: StickSlipFilter | None = None
+        if _is_single_unit(arm, self._ensemble.arms.crossing):
+            self._single = StickSlipFilter(
+                arm.designs[0],
+                tension_stddev=tension_stddev,
+                tension_bias_stddev=tension_bias_stddev,
+                lag=lag,
+                seed=seed,
+            )
+        straight = [0.0] * len(arm.units)
+        self.reset(straight if bend_angles is None else bend_angles, bend_angle_stddev)
+
+    @property
+    def arm(self) -> Arm:
+        """The arm that is followed."""
+        return self._arm
+
+    def reset(self, bend_angles: Sequence[float], stddev: float | Sequence[float] = 0.0) -> None:
+        """Put all joints to angles in rad that a homing move has told, with their deviation.
+
+        Raises
+        ------
+        BendAngleError
+            If an angle is missing, not a number, or beyond its joint's stop.
+        ValueError
+            If a deviation is not allowed. The angles then stay in both cases.
+        """
+        angles = check_bend_angles(self._arm, bend_angles)
+        stddevs = _deviations(stddev, len(angles))
+        self._assured = [True] * len(angles)
+        self._committed = self._newest = Place(self._ensemble.angles(angles, stddevs))
+        self._begin_history()
+        if self._single:
+            self._single.reset(angles[0], stddevs[0])
+
+    def doubt(self) -> None:
+        """Take it that the arm may have moved unseen, say while no tensions came.
+
+        The angles stay, but none is assured until a stop, a measurement or a reset tells it.
+        """
+        self._committed = self._newest
+        self._assured = [False] * len(self._assured)
+        self._forget_samples()
+        if self._single:
+            self._single.doubt()
+
+    def update(
+        self, tensions: Mapping[str, float], time: float, load: Load = UPRIGHT
+    ) -> ArmFilterState:
+        """Take the tensions of all cables; return where the arm is then, provisionally.
+
+        Parameters
+        ----------
+        tensions : mapping
+            Tension in N of each cable by its name, at the base.
+        time : float
+            When they were measured, in s; later than those before.
+        load : Load
+            On the base, as `ArmTracker.update` takes it.
+
+        Raises
+        ------
+        TensionError, LoadError
+            As `ArmTracker.update` does.
+        ValueError
+            If the time is not later than that before. What was known stays in all cases.
+        """
+        arm = self._arm
+        at_base = arm.check_tensions(tensions)
+        dead = self._ensemble.dead(load)
+        crossing = self._ensemble.arms.crossing
+        if self._single:
+            state = self._single.update(*pair_at(crossing[0], at_base), time, at_tip(arm, load))
+            return self._of_single(state)
+        self._check_time(time)
+        if slack_joint(crossing, [at_base] * len(crossing)) is not None:
+            self.doubt()
+            self._committed = self._newest = Place(self._newest.angles)
+            return self._slack(at_base, time, load)
+        medians = np.median(self._newest.angles, axis=0).tolist()
+        at_joints = transmitted(arm, at_base, medians, None)
+        for joint, both in enumerate(zip(crossing, at_joints, strict=True)):
+            dead.carried.excess(joint, pair_at(*both))
+        return self._take(at_base, Sample(time, load))
+
+    def _followed(
+        self, estimate: Estimate, loads: list[Load], start: Place
+    ) -> tuple[Floats, list[Place]]:
+        paths = self._ensemble.tensions(estimate)
+        return paths, self._ensemble.follow(paths, loads, start)
+
+    def _state(
+        self,
+        sample: Sample,
+        tensions: Sequence[float],
+        path: Sequence[Place],
+        member_tensions: Floats,
+        tension_errors: Floats,
+        *,
+        provisional: bool,
+    ) -> ArmFilterState:
+        """The state at a sample; `path` is where the members were before and are then."""
+        before, place = path
+        arm, arms = self._arm, self._ensemble.arms
+        drawn = self._ensemble.drawn(member_tensions, place, sample.load)
+        turning = drawn.moment / arms.levers
+        of_members = 0.5 * np.array([drawn.total - turning, drawn.total + turning])
+        at_joints = [tensions] * arms.count
+        if drawn.at is not None:
+            at_joints = np.median(drawn.at, axis=0).tolist()
+        moved = place.angles != before.angles
+        joints = tuple(
+            FilterState(
+                *(design, sample.load, sample.time),
+                pair_at(arms.crossing[joint], list(at_joints[joint])),
+                angles=place.angles[:, joint],
+                moved=moved[:, joint],
+                slips=JointSlips(
+                    *(self._ensemble, joint, sample.load, of_members[..., joint], place.angles),
+                    tension_errors[arms.adds[:, joint] > 0.0],
+                ),
+                provisional=provisional,
+                angle_assured=self._assured[joint],
+            )
+            for joint, design in enumerate(arm.designs)
+        )
+        return ArmFilterState(
+            *(arm, sample.load, sample.time, dict(zip(arm.cable_names, tensions, strict=True))),
+            joints=joints,
+            cable_tensions={
+                cable.name: tuple([float(at[index]) for at in at_joints[: cable.last_unit]])
+                for index, cable in enumerate(arm.cables)
+            },
+            members=place.angles,
+            provisional=provisional,
+        )
+
+    def _slack(self, at_base: list[float], time: float, load: Load) -> ArmFilterState:
+        """Say nothing of an arm of which some joint is loose: the others carry it."""
+        arm, crossing = self._arm, self._ensemble.arms.crossing
+        return ArmFilterState(
+            *(arm, load, time, dict(zip(arm.cable_names, at_base, strict=True))),
+            joints=tuple(
+                FilterState.slack(design, load, time, pair_at(of_joint, at_base))
+                for design, of_joint in zip(arm.designs, crossing, strict=True)
+            ),
+            cable_tensions={
+                cable.name: (tension,) * cable.last_unit
+                for cable, tension in zip(arm.cables, at_base, strict=True)
+            },
+            members=np.empty((0, len(arm.units))),
+            provisional=True,
+        )
+
+    def _take_for_sure(self, state: ArmFilterState) -> None:
+        for index, joint in enumerate(state.joints):
+            if (
+                not self._assured[index]
+                and joint.regime_probabilities[Regime.DRIVEN_TO_STOP] > SURE
+            ):
+                self._assured[index] = joint.angle_assured = True
+
+    def measure(self, joint: int, bend_angle: float, stddev: float) -> None:
+        """Take what an encoder or a camera says of one joint at the newest sample.
+
+        The other joints stay where they are, and so does what the friction of cables remembers.
+
+        Parameters
+        ----------
+        joint : int
+            Counted from 1 at the base.
+        bend_angle, stddev : float
+            In rad; the deviation above 0.
+
+        Raises
+        ------
+        ArmError
+            If the arm has no such joint.
+        BendAngleError
+            If the angle is not a number or lies beyond the stop.
+        ValueError
+            If the deviation is not a number above 0.
+        """
+        index = check_joint(self._arm, joint)
+        angle = check_joint_angle(self._arm, joint, bend_angle)
+        check_stddev(stddev)
+        if self._single:
+            self._single.measure(angle, stddev)
+            return
+        angles = self._newest.angles.copy()
+        angles[:, index] = drawn_to(
+            self._ensemble.angles_of(index, angle, stddev),
+            *(angles[:, index], angle, stddev),
+            assured=self._assured[index],
+        )
+        self._assured[index] = True
+        if self._put(self._newest._replace(angles=angles)) is not None:
+            found = self._last.measured(angles, self._assured)
+            if self._history and self._history[-1].time == found.time:  # another joint was too
+                self._history.pop()
+            self._history.append(found)
+
+    @property
+    def committed(self) -> ArmFilterState | None:
+        """The newest state that will not be taken back; None before there is one."""
+        if self._single:
+            return self._of_single(self._single.committed)
+        return super().committed
+
+    def history(self, time: float) -> ArmFilterState | None:
+        """Return the newest committed state that is not after a time in s, if it is kept."""
+        if self._single:
+            return self._of_single(self._single.history(time))
+        return super().history(time)
+
+    @overload
+    def _of_single(self, state: FilterState) -> ArmFilterState: ...
+    @overload
+    def _of_single(self, state: None) -> None: ...
+    def _of_single(self, state: FilterState | None) -> ArmFilterState | None:
+        """Say of the arm what the filter says of its only unit."""
+        if state is None:
+            return None
+        by_side = {'l': state.tension_l, 's': state.tension_s}
+        tensions = {cable.name: by_side[cable.side] for cable in self._arm.cables}
+        return ArmFilterState(
+            *(self._arm, state.load, state.time, tensions),
+            joints=(state,),
+            cable_tensions={name: (tension,) for name, tension in tensions.items()},
+            members=state.members[:, None],
+            provisional=state.provisional,
+        )
+
+
+def _is_single_unit(arm: Arm, crossing: list[Crossing]) -> bool:
+    """Whether an arm is a unit with a cable on either side, as a `StickSlipFilter` has it."""
+    return (
+        (len(arm.units), len(arm.cables)) == (1, 2)
+        and arm.cable_friction_coefficient == 0.0
+        and not crossing[0].leverage
+    )
+
+
+def _deviations(stddev: float | Sequence[float], count: int) -> list[float]:
+    """Return the standard deviations of the angles of so many joints.
+
+    Raises
+    ------
+    ValueError
+        If there are not as many, or one is negative or no number.
+    """
+    found = [stddev] * count if isinstance(stddev, (int, float)) else list(stddev)
+    if len(found) != count:
+        raise ValueError(
+            f'there are {len(found)} standard deviations of bend angles, but {count} joints; '
+            'one for all joints or one for each is needed'
+        )
+    for value in found:
+        check_least('bend_angle_stddev', value, 0.0)
+    return found
