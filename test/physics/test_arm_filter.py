@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from designs import PRELIMINARY
 from measure_filter.sessions import UNITS
+from thoroughness import few_of
 
 from tendon_statics import (
     Arm,
@@ -39,6 +40,7 @@ def arm_of(units, **more):
 
 
 THREE = arm_of([SHEATHED] * 3)
+BIASED = {'tension_stddev': NOISE, 'tension_bias_stddev': 0.01}
 
 
 def pull(tension_l, tension_s):
@@ -87,7 +89,7 @@ def test_an_arm_of_one_is_the_single_filter_to_the_last_bit(design):
 
 def test_without_noise_to_speak_of_it_is_the_tracker():
     found, tracker = ArmFilter(THREE, tension_stddev=1e-7), ArmTracker(THREE)
-    for index, pair in enumerate(ramp(200)):
+    for index, pair in enumerate(ramp(150, 1.8)):
         state = found.update(pull(*pair), index / 200.0)
         expected = tracker.update(pull(*pair))
     assert min(expected.bend_angles) > math.radians(3.0)
@@ -112,7 +114,10 @@ def test_a_random_arm_without_noise_to_speak_of_is_the_tracker_at_each_place():
 
 def test_the_same_seed_gives_the_same_and_another_one_not():
     states = [
-        fed(ArmFilter(THREE, tension_stddev=NOISE, tension_bias_stddev=0.01, seed=seed), ramp(120))
+        fed(
+            ArmFilter(THREE, tension_stddev=NOISE, tension_bias_stddev=0.01, seed=seed),
+            ramp(40, 1.6),
+        )
         for seed in (3, 3, 4)
     ]
     np.testing.assert_array_equal(states[0][-1].members, states[1][-1].members)
@@ -123,8 +128,8 @@ def test_at_constant_tensions_nothing_drifts():
     """3 % below the slip of the first joint to slip, where the tracker is carried along."""
     found, tracker = ArmFilter(THREE, tension_stddev=NOISE), ArmTracker(THREE)
     draw = np.random.default_rng(5)
-    for index in range(1500):
-        pair = np.array([1.0, 1.72]) + draw.normal(0.0, NOISE, 2)
+    for index in range(few_of(4000)):
+        pair = np.array([1.0, 1.333]) + draw.normal(0.0, NOISE, 2)
         state = found.update(pull(*pair), index / 200.0)
         moved = tracker.update(pull(*pair))
     assert max(moved.bend_angles) > 0.0
@@ -133,28 +138,25 @@ def test_at_constant_tensions_nothing_drifts():
 
 
 def test_a_slip_of_one_joint_that_loads_the_next_is_seen_in_all_members():
-    """Heavy units lean more and more: each member is a whole arm, at rest as a whole."""
-    heavy = dataclasses.replace(SHEATHED.design, mass=0.05)
-    arm = arm_of([ArmUnit(heavy, 0.03)] * 3)
-    found = ArmFilter(arm, tension_stddev=NOISE)
-    state = fed(found, ramp(150, 2.3, rest=100))[-1]
-    angles = state.members
-    assert angles.shape == (39, 3)
-    order = np.argsort(angles[:, 2])
-    # Members in which the last joint is bent more have a base that carries more, and bends more.
-    assert angles[order[-1], 0] > angles[order[0], 0]
-    tilts = np.array([member.sum() for member in angles])
+    """Joint 3 slips first and takes the others along: so it does in each possible arm alone."""
+    found = ArmFilter(THREE, tension_stddev=0.02, tension_bias_stddev=0.01)
+    state = fed(found, ramp(60, 1.40, rest=60), noise=0.02)[-1]
+    slipped = state.members > 0.0
+    assert slipped.shape == (39, 3)
+    assert 0 < slipped[:, 0].sum() < slipped[:, 2].sum() < 39
+    tracker = ArmTracker(THREE)
+    curve = np.array([tracker.update(pull(1.0, s)).bend_angles for s in np.arange(1.0, 1.6, 2e-3)])
+    for member in state.members:
+        assert np.abs(curve - member).max(axis=1).min() < 0.02
+    tilts = state.members.sum(axis=1)
     assert state.tip.tilt == pytest.approx(float(np.median(tilts)))
     low, high = state.tip_interval()
-    assert low.tilt == tilts.min()
-    assert high.tilt == tilts.max()
-    correlation = np.corrcoef(angles.T)
-    assert correlation.min() > 0.5
+    assert (low.tilt, high.tilt) == pytest.approx((tilts.min(), tilts.max()))
 
 
 def test_what_is_new_is_provisional_and_what_is_a_lag_old_is_not():
     found = ArmFilter(THREE, tension_stddev=NOISE, lag=0.1)
-    states = fed(found, ramp(150))
+    states = fed(found, ramp(60, 1.5))
     assert all(state.provisional for state in states)
     committed = found.committed
     assert not committed.provisional
@@ -165,15 +167,15 @@ def test_what_is_new_is_provisional_and_what_is_a_lag_old_is_not():
 
 
 def test_a_measured_joint_is_put_there_and_the_others_stay():
-    found = ArmFilter(THREE, tension_stddev=NOISE, bend_angle_stddev=[0.0, 0.2, 0.1])
-    before = fed(found, [(1.0, 1.2)] * 40)[-1]
+    found = ArmFilter(THREE, tension_stddev=NOISE, bend_angle_stddev=[0.0, 0.03, 0.02])
+    before = fed(found, [(1.0, 1.0)] * 40)[-1]
     assert before.bend_angle_stddevs[0] == 0.0
-    assert before.bend_angle_stddevs[1] > 0.05
-    found.measure(2, 0.1, 0.002)
-    found.measure(3, -0.1, 0.002)
-    assert found.committed.bend_angles[1:] == pytest.approx((0.1, -0.1), abs=0.002)
-    state = fed(found, [(1.0, 1.2)] * 40, start=1.0)[-1]
-    assert state.bend_angles == pytest.approx((0.0, 0.1, -0.1), abs=0.003)
+    assert before.bend_angle_stddevs[1] > 0.01
+    found.measure(2, 0.04, 0.002)
+    found.measure(3, -0.04, 0.002)
+    assert found.committed.bend_angles[1:] == pytest.approx((0.04, -0.04), abs=0.002)
+    state = fed(found, [(1.0, 1.0)] * 40, start=1.0)[-1]
+    assert state.bend_angles == pytest.approx((0.0, 0.04, -0.04), abs=0.003)
     assert state.bend_angle_stddevs[1] == pytest.approx(0.002, rel=0.4)
 
 
@@ -195,7 +197,7 @@ def test_doubt_lasts_until_a_stop_or_a_measurement_and_is_of_each_joint():
 
 def test_its_answers_agree_with_each_other():
     found = ArmFilter(THREE, tension_stddev=NOISE)
-    state = fed(found, ramp(150, 2.2, rest=60))[-1]
+    state = fed(found, ramp(60, 1.6, rest=30))[-1]
     for joint, angle, interval, probabilities in zip(
         state.joints,
         state.bend_angles,
@@ -208,7 +210,7 @@ def test_its_answers_agree_with_each_other():
         assert joint.pressure > 0.0
         assert joint.pressure_stddev > 0.0
     tracker = ArmTracker(THREE, state.bend_angles)
-    expected = tracker.update(pull(1.0, 2.2))
+    expected = tracker.update(pull(1.0, 1.6))
     assert state.slip_margins == pytest.approx(expected.slip_margins, abs=0.1)
     assert state.pressures == pytest.approx(expected.pressures, rel=0.05)
     assert math.sqrt(state.tip_covariance[0, 0]) == pytest.approx(state.tip_stddev.x)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...filter import FilterState, StickSlipFilter
+from ...filter import StickSlipFilter
 from ...filter.lagged import SURE, LaggedFilter, check_least, check_stddev, drawn_to
 from ...filter.recent import Sample
 from ...filter.smoothing import Estimate
@@ -18,7 +17,8 @@ from ..arm import Arm
 from ..cables import Crossing, pair_at, slack_joint, transmitted
 from ..carried import at_tip
 from ..joints import check_bend_angles, check_joint, check_joint_angle
-from .ensemble import ArmEnsemble, JointSlips
+from .answers import single_state, slack_state, state_at
+from .ensemble import ArmEnsemble
 from .follow import Place
 from .state import ArmFilterState
 
@@ -151,7 +151,7 @@ class ArmFilter(LaggedFilter[ArmFilterState, Place]):
         if slack_joint(crossing, [at_base] * len(crossing)) is not None:
             self.doubt()
             self._committed = self._newest = Place(self._newest.angles)
-            return self._slack(at_base, time, load)
+            return slack_state(arm, crossing, at_base, time, load)
         medians = np.median(self._newest.angles, axis=0).tolist()
         at_joints = transmitted(arm, at_base, medians, None)
         for joint, both in enumerate(zip(crossing, at_joints, strict=True)):
@@ -174,57 +174,10 @@ class ArmFilter(LaggedFilter[ArmFilterState, Place]):
         *,
         provisional: bool,
     ) -> ArmFilterState:
-        """The state at a sample; `path` is where the members were before and are then."""
-        before, place = path
-        arm, arms = self._arm, self._ensemble.arms
-        drawn = self._ensemble.drawn(member_tensions, place, sample.load)
-        turning = drawn.moment / arms.levers
-        of_members = 0.5 * np.array([drawn.total - turning, drawn.total + turning])
-        at_joints = [tensions] * arms.count
-        if drawn.at is not None:
-            at_joints = np.median(drawn.at, axis=0).tolist()
-        moved = place.angles != before.angles
-        joints = tuple(
-            FilterState(
-                *(design, sample.load, sample.time),
-                pair_at(arms.crossing[joint], list(at_joints[joint])),
-                angles=place.angles[:, joint],
-                moved=moved[:, joint],
-                slips=JointSlips(
-                    *(self._ensemble, joint, sample.load, of_members[..., joint], place.angles),
-                    tension_errors[arms.adds[:, joint] > 0.0],
-                ),
-                provisional=provisional,
-                angle_assured=self._assured[joint],
-            )
-            for joint, design in enumerate(arm.designs)
-        )
-        return ArmFilterState(
-            *(arm, sample.load, sample.time, dict(zip(arm.cable_names, tensions, strict=True))),
-            joints=joints,
-            cable_tensions={
-                cable.name: tuple([float(at[index]) for at in at_joints[: cable.last_unit]])
-                for index, cable in enumerate(arm.cables)
-            },
-            members=place.angles,
+        return state_at(
+            *(self._ensemble, sample, tensions, path, member_tensions, tension_errors),
             provisional=provisional,
-        )
-
-    def _slack(self, at_base: list[float], time: float, load: Load) -> ArmFilterState:
-        """Say nothing of an arm of which some joint is loose: the others carry it."""
-        arm, crossing = self._arm, self._ensemble.arms.crossing
-        return ArmFilterState(
-            *(arm, load, time, dict(zip(arm.cable_names, at_base, strict=True))),
-            joints=tuple(
-                FilterState.slack(design, load, time, pair_at(of_joint, at_base))
-                for design, of_joint in zip(arm.designs, crossing, strict=True)
-            ),
-            cable_tensions={
-                cable.name: (tension,) * cable.last_unit
-                for cable, tension in zip(arm.cables, at_base, strict=True)
-            },
-            members=np.empty((0, len(arm.units))),
-            provisional=True,
+            assured=self._assured,
         )
 
     def _take_for_sure(self, state: ArmFilterState) -> None:
@@ -279,32 +232,16 @@ class ArmFilter(LaggedFilter[ArmFilterState, Place]):
     def committed(self) -> ArmFilterState | None:
         """The newest state that will not be taken back; None before there is one."""
         if self._single:
-            return self._of_single(self._single.committed)
+            found = self._single.committed
+            return None if found is None else single_state(self._arm, found)
         return super().committed
 
     def history(self, time: float) -> ArmFilterState | None:
         """Return the newest committed state that is not after a time in s, if it is kept."""
         if self._single:
-            return self._of_single(self._single.history(time))
+            found = self._single.history(time)
+            return None if found is None else single_state(self._arm, found)
         return super().history(time)
-
-    @overload
-    def _of_single(self, state: FilterState) -> ArmFilterState: ...
-    @overload
-    def _of_single(self, state: None) -> None: ...
-    def _of_single(self, state: FilterState | None) -> ArmFilterState | None:
-        """Say of the arm what the filter says of its only unit."""
-        if state is None:
-            return None
-        by_side = {'l': state.tension_l, 's': state.tension_s}
-        tensions = {cable.name: by_side[cable.side] for cable in self._arm.cables}
-        return ArmFilterState(
-            *(self._arm, state.load, state.time, tensions),
-            joints=(state,),
-            cable_tensions={name: (tension,) for name, tension in tensions.items()},
-            members=state.members[:, None],
-            provisional=state.provisional,
-        )
 
 
 def _is_single_unit(arm: Arm, crossing: list[Crossing]) -> bool:

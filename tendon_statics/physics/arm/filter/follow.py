@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from ...errors import ArmError, TensionError
 from ..excess import Excess
 from ..flow import settle
-from .many import Dead, ManyArms, Pulled
+from .look import Pulled
+from .many import Dead, ManyArms
 from .settle_many import settle_many
 
 Floats = NDArray[np.float64]

@@ -7,20 +7,24 @@ them one by one.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..flow import FIRST_WAY
 from ..motion import NOTHING, ROUNDING, TOLERANCE
-from ..steps import JUST_BEYOND, STEP_ERROR, STRAIGHT
-from .glide import glide, of_moving, times
-from .many import Look, Pulled
+from ..steps import JUST_BEYOND, STRAIGHT
+from .glide import Moving, discs_bound, glide
+from .linear_motions import times
+from .look import Look, Pulled
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+Indices = NDArray[np.intp]
+
+STEP_ERROR = 1e-3
+"""Error of one step in rad that is accepted, as estimated; where joints come to rest is exact"""
 
 MOST_STEPS = 100
 """After which what is not at rest is followed by `flow` itself"""
@@ -48,7 +52,7 @@ def settle_many(pulled: Pulled, angles: Floats) -> Settled:
         if not len(which):
             break
         motion.go_on(which)
-    at_rest = ~motion.moving.any(axis=1)
+    at_rest: Flags = ~np.asarray(motion.moving.any(axis=1))
     return Settled(motion.angles, motion.at_joints, at_rest)
 
 
@@ -73,28 +77,31 @@ class _Motions:
         self._share = np.full(angles.shape, ROUNDING)  # of K, by which M may exceed it
         self._step = np.full(len(angles), np.nan)
 
-    def go_on(self, which: NDArray[np.intp]) -> None:
+    def go_on(self, which: Indices) -> None:
         """Let some arms go on: to rest, if it is near, else by one step."""
         pulled = self._pulled.part(which, self.at_joints)
         moving = self.moving[which]
         look = pulled.look(self.angles[which], np.where(moving, self.sides[which], 0.0))
-        glided = glide(pulled, look, moving, self.begun[which])
+        arms = Moving(pulled, look, moving, self.begun[which])
+        glided = glide(arms)
         rested = which[glided.at_rest]
         self._take(rested, glided.look, glided.at_rest)
         self.moving[rested] = False
         if glided.behind.any():
             self._let_rest(which, glided.behind)
-        rest = ~glided.at_rest & ~glided.behind.any(axis=1)
+        if glided.leg is not None and glided.on_leg.any():
+            self._come_to(which, arms, glided.leg, glided.on_leg)
+        rest = ~(glided.at_rest | glided.behind.any(axis=1) | glided.on_leg)
         if rest.any():
-            self._step_on(which[rest], pulled, look, rest)
+            self._step_on(which, arms, rest)
 
-    def _take(self, which: NDArray[np.intp], look: Look, rows: Flags) -> None:
+    def _take(self, which: Indices, look: Look, rows: Flags) -> None:
         self.angles[which] = look.angles[rows]
         if self.at_joints is not None:
             assert look.drawn.at is not None
             self.at_joints[which] = look.drawn.at[rows]
 
-    def _let_rest(self, which: NDArray[np.intp], behind: Flags) -> None:
+    def _let_rest(self, which: Indices, behind: Flags) -> None:
         """Let rest where they began what is beyond its limit by rounding alone."""
         rows, joints = np.nonzero(behind)
         rows = which[rows]
@@ -103,47 +110,33 @@ class _Motions:
         self._share[rows, joints] = NOTHING
         self._free(which[behind.any(axis=1)])
 
-    def _step_on(self, which: NDArray[np.intp], pulled: Pulled, look: Look, rows: Flags) -> None:
+    def _step_on(self, which: Indices, arms: Moving, rows: Flags) -> None:
         """Let some arms go one step of a Rosenbrock method, as `rosenbrock` and `steps` do."""
         if not rows.all():
-            pulled = pulled.part(rows)
-            look = pulled.look(
-                look.angles[rows], np.where(self.moving[which], look.sides[rows], 0.0)
-            )
-        moving = self.moving[which]
-        joints = np.flatnonzero(moving.any(axis=0))
-        moves = moving[:, joints]
-        sides, angles = np.where(moving, look.sides, 0.0), look.angles
-        jacobian = of_moving(look.jacobian(joints)[:, joints], moves, 0.0)
-        velocity = _velocity(look, joints, moves)
+            which, pulled = which[rows], arms.pulled.part(np.flatnonzero(rows))
+            moving = arms.moving[rows]
+            sides = np.where(moving, arms.look.sides[rows], 0.0)
+            look = pulled.look(arms.look.angles[rows], sides)
+            arms = Moving(pulled, look, moving, arms.begun[rows])
+        jacobian, velocity = arms.jacobian(arms.look), arms.velocity(arms.look)
         step = self._step[which]
         with np.errstate(all='ignore'):
             step = np.where(np.isnan(step), FIRST_WAY / np.abs(velocity).max(axis=1), step)
-            diagonal = np.diagonal(jacobian, axis1=1, axis2=2)
-            growth = (diagonal + np.abs(jacobian).sum(axis=2) - np.abs(diagonal)).max(axis=1)
+            growth = _growth(jacobian)
             step = np.where(growth > 0.0, np.minimum(step, 1.0 / growth), step)
-
-        def after(way: Floats) -> Look:
-            there = angles.copy()
-            there[:, joints] += way
-            return pulled.look(there, sides)
-
-        way, error = _rosenbrock(after, joints, moves, velocity, jacobian, step)
-        worst = np.abs(error).max(axis=1) / STEP_ERROR
-        good = worst <= 1.0
+        way, error = _rosenbrock(arms, velocity, jacobian, step)
         with np.errstate(all='ignore'):
-            shorter = np.where(
-                np.isfinite(worst), np.maximum(0.2, 0.9 * worst ** (-1.0 / 3.0)), 0.1
-            )
-            longer = np.minimum(6.0, 0.9 * np.maximum(worst, 1e-6) ** (-1.0 / 3.0))
-        self._step[which] = step * np.where(good, longer, shorter)
+            worst = np.abs(error).max(axis=1) / STEP_ERROR
+            good = worst <= 1.0
+            factor = 0.9 * np.maximum(worst, 1e-6) ** (-1.0 / 3.0)
+            factor = np.where(good, np.minimum(6.0, factor), np.maximum(0.2, factor))
+        self._step[which] = step * np.where(np.isfinite(worst), factor, 0.1)
         way = np.where(good[:, None], way, 0.0)
-        there = after(way)
-        slope = np.where(moves, np.diagonal(jacobian, axis1=1, axis2=2), 0.0)
-        until = _Until(look, moving, joints, velocity, slope)
+        there = arms.after(way)
+        until = _Until(arms, velocity, jacobian)
         share = np.where(good, until.share(there, step), 1.0)
         if (share < 1.0).any():
-            start, end = velocity * step[:, None], _velocity(there, joints, moves) * step[:, None]
+            start, end = velocity * step[:, None], arms.velocity(there) * step[:, None]
             most = np.maximum(np.abs(start).max(axis=1), np.abs(end).max(axis=1))
             rushed = (share < 1.0) & (most > 3.0 * np.abs(way).max(axis=1))
             self._step[which[rushed]] = (step * np.maximum(share, 1e-3))[rushed]
@@ -153,36 +146,32 @@ class _Motions:
                 cut = good & (share < 1.0)
                 if not cut.any():
                     break
-                part = np.where(
-                    cut, part * np.minimum(share + JUST_BEYOND, 1.0 - JUST_BEYOND), part
-                )
+                shorter = np.minimum(share + JUST_BEYOND, 1.0 - JUST_BEYOND)
+                part = np.where(cut, part * shorter, part)
                 way = np.where(cut[:, None], _cubic(whole, start, end, part[:, None]), way)
-                there = after(np.where(good[:, None], way, 0.0))
+                there = arms.after(way)
                 share = np.where(cut, until.share(there, part * step), 1.0)
-        taken = which[good]
-        self._take(taken, there, good)
-        self._change(taken, there, joints, good)
+        self._come_to(which, arms, there, good)
 
-    def _change(
-        self, which: NDArray[np.intp], look: Look, joints: NDArray[np.intp], rows: Flags
-    ) -> None:
-        """Stop what has met its stop or falls below its limit, and free what has come to it."""
-        moving, sides = self.moving[which], look.sides[rows]
-        angles, begun = look.angles[rows], self.begun[which]
-        stops = np.broadcast_to(look.arms.stops, angles.shape)
-        falls = moving & (look.excess[rows] < 0.0)
+    def _come_to(self, which: Indices, arms: Moving, look: Look, rows: Flags) -> None:
+        """Go there with some arms; stop what meets its stop or falls below its limit there."""
+        which = which[rows]
+        self._take(which, look, rows)
+        moving, sides = arms.moving, look.sides
+        stops = look.arms.stops
+        falls = moving & (look.excess < 0.0)
         if falls.any():
-            moves = moving[:, joints]
-            jacobian = of_moving(look.jacobian(joints)[:, joints][rows], moves, 0.0)
-            velocity = np.where(moves, (sides * look.excess[rows])[:, joints], 0.0)
-            falls[:, joints] &= sides[:, joints] * times(jacobian, velocity) < 0.0
-        back = moving & (sides * (angles - begun) < 0.0)
-        at_stop = moving & ~back & (sides * angles >= stops - TOLERANCE)
-        self.angles[which] = np.where(back, begun, np.where(at_stop, sides * stops, angles))
-        self.moving[which] = moving & ~(back | at_stop | falls)
+            joints = arms.joints
+            bends = times(arms.jacobian(look), arms.velocity(look))
+            falls[:, joints] &= sides[:, joints] * bends < 0.0
+        back = moving & (sides * (look.angles - arms.begun) < 0.0)
+        at_stop = moving & ~back & (sides * look.angles >= stops - TOLERANCE)
+        angles = np.where(back, arms.begun, np.where(at_stop, sides * stops, look.angles))
+        self.angles[which] = angles[rows]
+        self.moving[which] = (moving & ~(back | at_stop | falls))[rows]
         self._free(which)
 
-    def _free(self, which: NDArray[np.intp]) -> None:
+    def _free(self, which: Indices) -> None:
         """Set moving what is beyond its limit and not before its stop."""
         look = self._pulled.part(which, self.at_joints).look(self.angles[which])
         if self.at_joints is not None:
@@ -198,14 +187,12 @@ class _Motions:
 class _Until:
     """After which share of a step the joints that move are no longer the same, as in `steps`."""
 
-    def __init__(
-        self, look: Look, moving: Flags, joints: NDArray[np.intp], velocity: Floats, slope: Floats
-    ) -> None:
-        self._look, self._moving, self._rubs = look, moving, look.arms.friction > 0.0
-        self._was = np.zeros(moving.shape)
+    def __init__(self, arms: Moving, velocity: Floats, jacobian: Floats) -> None:
+        look, joints = arms.look, arms.joints
+        self._look, self._moving, self._rubs = look, arms.moving, look.arms.friction > 0.0
+        self._was, self._slope = np.zeros(look.angles.shape), np.zeros(look.angles.shape)
         self._was[:, joints] = look.sides[:, joints] * velocity
-        self._slope = np.zeros(moving.shape)
-        self._slope[:, joints] = np.abs(slope)
+        self._slope[:, joints] = np.abs(np.diagonal(jacobian, axis1=1, axis2=2))
 
     def share(self, after: Look, step: Floats) -> Floats:
         """Return the share; 1 where they are the same to the end of a step, or nearly."""
@@ -235,39 +222,37 @@ class _Until:
         return np.where(np.isnan(least), 0.0, least)
 
 
-def _velocity(look: Look, joints: NDArray[np.intp], moves: Flags) -> Floats:
-    """M − side K of the joints that move, in N m."""
-    found: Floats = np.where(moves, (look.sides * look.excess)[:, joints], 0.0)
-    return found
+def _growth(jacobian: Floats) -> Floats:
+    """The fastest rate at which each motion grows; below zero, or zero, where none does."""
+    bound = discs_bound(jacobian)
+    grows = np.flatnonzero(bound > 0.0)
+    if jacobian.shape[1] > 1 and len(grows):
+        bound[grows] = np.linalg.eigvals(jacobian[grows]).real.max(axis=1)
+    return bound
 
 
 def _rosenbrock(
-    after: Callable[[Floats], Look],
-    joints: NDArray[np.intp],
-    moves: Flags,
-    velocity: Floats,
-    jacobian: Floats,
-    step: Floats,
+    arms: Moving, velocity: Floats, jacobian: Floats, step: Floats
 ) -> tuple[Floats, Floats]:
     """Return the way of one step and its error, as `rosenbrock_step` does."""
     size = step[:, None]
     with np.errstate(all='ignore'):
-        matrix = np.eye(len(joints)) * (2.0 / size)[:, :, None] - jacobian
-        good = np.isfinite(matrix).all(axis=(1, 2))
-        matrix = np.where(good[:, None, None], matrix, np.eye(len(joints)))
+        identity = np.eye(velocity.shape[1])
+        matrix = identity * (2.0 / size)[..., None] - jacobian
+        good: Any = np.isfinite(matrix).all(axis=(1, 2))
+        matrix = np.where(good[:, None, None], matrix, identity)
         try:
-            inverse = np.linalg.inv(matrix)
+            inverse = np.asarray(np.linalg.inv(matrix), np.float64)
         except np.linalg.LinAlgError:
             inverse = np.full(matrix.shape, np.nan)
         first = times(inverse, velocity)
         second = times(inverse, velocity + (4.0 / size) * first)
         way = 2.0 * first
-        there = _velocity(after(way), joints, moves)
-        third = times(inverse, there + (first - second) / size)
+        third = times(inverse, arms.velocity(arms.after(way)) + (first - second) / size)
         way = way + third
-        there = _velocity(after(way), joints, moves)
-        last = times(inverse, there + (first - second - (8.0 / 3.0) * third) / size)
-    return way + last, np.where(good[:, None], last, np.nan)
+        change = first - second - (8.0 / 3.0) * third
+        last = times(inverse, arms.velocity(arms.after(way)) + change / size)
+        return way + last, np.where(good[:, None], last, np.nan)
 
 
 def _cubic(way: Floats, at_start: Floats, at_end: Floats, part: Floats) -> Floats:
