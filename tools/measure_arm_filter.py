@@ -56,9 +56,9 @@ class Score(NamedTuple):
     """Of which nine tenths are below"""
 
 
-def pulls(draw: random.Random, arm: Arm, load: Load, rate: float, count: int) -> Iterator[dict]:
+def pulls(draw: random.Random, arm: Arm, load: Load, rate: float) -> Iterator[dict]:
     """Yield tensions without noise: ramps from one random pull to the next, with rests."""
-    now = {name: value for name, value in random_pull(draw, arm, load).items()}
+    now = dict(random_pull(draw, arm, load))
     for pair in range(len(arm.cables) // 2):  # balanced at first
         mean = 0.5 * (now[f'l{pair}'] + now[f's{pair}'])
         now[f'l{pair}'] = now[f's{pair}'] = mean
@@ -81,7 +81,7 @@ def score(draw: random.Random, units: int, rate: float, count: int) -> Score:
     found = ArmFilter(arm, tension_stddev=noise)
     exact, believing = ArmTracker(arm), ArmTracker(arm)
     truths, rows, costs = {}, [], []
-    for index, tensions in zip(range(count), pulls(draw, arm, load, rate, count), strict=False):
+    for index, tensions in zip(range(count), pulls(draw, arm, load, rate), strict=False):
         at = index / rate
         measured = {name: value + draw.gauss(0.0, noise) for name, value in tensions.items()}
         truth = exact.update(tensions, load)

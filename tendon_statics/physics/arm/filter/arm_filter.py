@@ -146,7 +146,7 @@ class ArmFilter(LaggedFilter[ArmFilterState, Place]):
         crossing = self._ensemble.arms.crossing
         if self._single:
             state = self._single.update(*pair_at(crossing[0], at_base), time, at_tip(arm, load))
-            return self._of_single(state)
+            return single_state(arm, state)
         self._check_time(time)
         if slack_joint(crossing, [at_base] * len(crossing)) is not None:
             self.doubt()
