@@ -97,12 +97,8 @@ def score(draw: random.Random, units: int, rate: float, count: int) -> Score:
         except (TensionError, ArmError):
             continue
         rows.append(_row(state, truth, believed, found.committed, truths))
-    return Score(
-        *np.nanmean(rows, axis=0),
-        *np.percentile(costs, 50),
-        np.mean(costs),
-        *np.percentile(costs, [90]),
-    )
+    median, high = np.percentile(costs, [50.0, 90.0])
+    return Score(*np.nanmean(rows, axis=0), median, float(np.mean(costs)), high)
 
 
 def _row(state: ArmFilterState, truth, believed, committed, truths) -> list[float]:
