@@ -57,6 +57,10 @@ measure-consistency: setup ## Measure how well the filter finds a model that is 
 measure-arm: setup ## Hold the arm against brute force on random arms (ARGS='--arms 200')
 	@$(run) python tools/measure_arm.py $(ARGS)
 
+.PHONY: measure-arm-filter
+measure-arm-filter: setup ## Measure the arm's filter on random sessions, beside the tracker (ARGS='--arms 20')
+	@$(run) python tools/measure_arm_filter.py $(ARGS)
+
 .PHONY: measure-view
 measure-view: setup ## Measure what the live page costs at 500 Hz, in a real browser
 	@$(run) python tools/measure_view.py $(ARGS)

@@ -39,6 +39,8 @@ from .uncertainty import SlipAngleDistribution, slip_angle_distribution
 if TYPE_CHECKING:
     from .arm import (
         Arm,
+        ArmFilter,
+        ArmFilterState,
         ArmState,
         ArmTipForce,
         ArmTracker,
@@ -60,6 +62,8 @@ __all__ = [
     'UPRIGHT',
     'Arm',
     'ArmError',
+    'ArmFilter',
+    'ArmFilterState',
     'ArmState',
     'ArmTipForce',
     'ArmTracker',
@@ -119,6 +123,8 @@ __all__ = [
 
 _NEEDING_NUMPY = {
     'Arm': '.arm',
+    'ArmFilter': '.arm',
+    'ArmFilterState': '.arm',
     'ArmState': '.arm',
     'ArmTipForce': '.arm',
     'ArmTracker': '.arm',
