@@ -39,7 +39,7 @@ def arm_markers(estimate: ArmEstimate, header: Header) -> MarkerArray:
     that asks for attention most. Lengths in m, in the base's frame. What is not determined is
     taken away if it was drawn.
     """
-    arm, state, load = estimate.arm, estimate.state, estimate.known.load
+    arm, load = estimate.arm, estimate.known.load
     count = len(arm.units)
     markers = {(of, n): new_marker(n, header, of) for n in range(count) for of in KINDS}
     whole = [new_marker(number, header, WHOLE) for number in range(3)]
@@ -53,8 +53,9 @@ def arm_markers(estimate: ArmEstimate, header: Header) -> MarkerArray:
     else:
         centres = [Point(x=x, z=z) for x, z in joint_centres(arm, angles)]
         base_tilt = 0.0
-        for number, (unit, joint) in enumerate(zip(arm.units, state.joints, strict=True)):
-            colour = red_green_blue(REGIME_COLOURS[joint.regime])
+        bands = estimate.bands
+        for number, unit in enumerate(arm.units):
+            colour = red_green_blue(REGIME_COLOURS[estimate.regimes[number]])
             start, end = centres[number : number + 2]
             width = 0.5 * unit.design.ball_radius
             make_arrow(markers[UNIT, number], start, end, width, colour)
@@ -62,7 +63,7 @@ def arm_markers(estimate: ArmEstimate, header: Header) -> MarkerArray:
                 markers[BAND, number],
                 [
                     Point(x=start.x + point.x, z=start.z + point.z)
-                    for low, high in joint.admissible_angles
+                    for low, high in bands[number]
                     for point in fan(unit.length, base_tilt + low, base_tilt + high)
                 ],
                 colour,
