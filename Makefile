@@ -24,8 +24,8 @@ help: ## List the targets
 setup: $(made)install/.complete ## Install ROS 2 into .venv/ (or use apt's) and build into install/
 
 .PHONY: demo
-demo: setup ## Drive the estimator node over real ROS 2 and print what it publishes (VIEW=1: and show it live)
-	@$(run) python tools/demo.py$(if $(VIEW), && python tools/demo_view.py)
+demo: setup ## Drive the estimator node over real ROS 2 and print what it publishes (VIEW=1: and show it live; ARM=1: an arm)
+	@$(run) python tools/$(if $(ARM),demo_arm.py,demo.py$(if $(VIEW), && python tools/demo_view.py))
 
 .PHONY: test
 test: setup ## Run all tests (ARGS='-m node' chooses; with CI=1 more examples of each property)
@@ -60,6 +60,10 @@ measure-consistency: setup ## Measure how well the filter finds a model that is 
 .PHONY: measure-arm
 measure-arm: setup ## Hold the arm against brute force on random arms (ARGS='--arms 200')
 	@$(run) python tools/measure_arm.py $(ARGS)
+
+.PHONY: measure-arm-filter
+measure-arm-filter: setup ## Measure the arm's filter on random sessions, beside the tracker (ARGS='--arms 20')
+	@$(run) python tools/measure_arm_filter.py $(ARGS)
 
 .PHONY: measure-view
 measure-view: setup ## Measure what the live page costs at 500 Hz, in a real browser

@@ -1,37 +1,36 @@
 """Follow an arm through a load cycle: which joints move when, and where the tip is.
 
-    python examples/arm.py [ARM_FILE CSV]
+    python examples/arm.py [ARM_FILE RECORDING]
 
-Without files it takes the arm of five units and the load cycle that travel with the project. A CSV
-file has one column of tensions in N, at the base, for each cable of the arm.
+Without files it takes the arm of five units and the load cycle that travel with the project. A
+recording is a table with one column of tensions, at the base, for each cable of the arm, or a bag.
 """
 
-import csv
 import sys
 from math import degrees
-from pathlib import Path
 
-from tendon_statics import ArmTracker, TendonStaticsError, default_design_path, load_arm
+from tendon_statics import (
+    ArmTracker,
+    TendonStaticsError,
+    default_design_path,
+    load_arm,
+    load_arm_recording,
+)
 
 LOAD_CELLS = 0.01
 """N; their standard deviation"""
 
 shared = default_design_path().parent
 files = sys.argv[1:] or (shared / 'arm.yaml', shared / 'arm_tensions.csv')
-arm, table = load_arm(files[0]), Path(files[1])
-
-with table.open(encoding='utf-8', newline='') as file:
-    rows = [
-        {title.split(' ')[0]: float(value) for title, value in row.items()}
-        for row in csv.DictReader(line for line in file if not line.startswith('#'))
-    ]
+arm = load_arm(files[0])
+recording = load_arm_recording(files[1], arm)
 
 tracker = ArmTracker(arm)  # straight at first
 moving: list[int] = []
-for number, row in enumerate(rows, start=1):
+for number, tensions in enumerate(recording.tensions(), start=1):
     angles, before = tracker.bend_angles, moving
     try:
-        state = tracker.update({name: row[name] for name in arm.cable_names})
+        state = tracker.update(dict(zip(arm.cable_names, tensions, strict=True)))
     except TendonStaticsError as error:
         print(f'sample {number}: {error}')  # and the arm is where it was
         continue

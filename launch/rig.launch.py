@@ -1,4 +1,4 @@
-"""Start one estimator per joint; `ros2 launch tendon_statics rig.launch.py -s` has arguments."""
+"""Start an estimator per joint or arm; `ros2 launch tendon_statics rig.launch.py -s` has more."""
 
 from pathlib import Path
 
@@ -14,7 +14,6 @@ from tendon_statics.launching.actions import (
     robot_state_publisher,
     rviz,
 )
-from tendon_statics.launching.description import unit_description
 from tendon_statics.launching.rig_file import load_rig
 from tendon_statics.launching.rviz import Shown
 
@@ -55,25 +54,24 @@ def start_rig(context):
     # First, since it may be missing, and launch leaves running what it has started by then.
     if shows_rviz:
         shown = [
-            Shown(joint.namespace, joint.names.frame_id, joint.base_turn is not None)
+            Shown(
+                *(joint.namespace, joint.names.frame_id),
+                has_base=joint.base_turn is not None,
+                estimator=joint.estimator,
+            )
             for joint in joints
         ]
         actions.append(rviz(arguments, shown))
     if shows_rviz or arguments['robot_state_publisher'] == 'true':
         actions += [
             robot_state_publisher(
-                arguments,
-                unit_description(
-                    joint.design_file, joint.names, f'{joint.namespace}/unit', joint.base_turn
-                ),
-                joint.namespace,
-                joint.joint_state_topic,
+                arguments, joint.description(), joint.namespace, joint.joint_state_topic
             )
             for joint in joints
         ]
     markers = {'markers': True} if shows_rviz else {}
     actions += [
-        node(arguments, joint, 'estimator', joint.estimator_parameters() | markers)
+        node(arguments, joint, joint.estimator, joint.estimator_parameters() | markers)
         for joint in joints
     ]
     if arguments['simulate'] == 'true':
@@ -89,7 +87,7 @@ def node(arguments, joint, name, parameters):
         name,
         joint.namespace,
         # What else the design file holds for /** goes to both nodes too.
-        parameters=[str(joint.design_file), as_they_are(parameters)],
+        parameters=[*map(str, joint.parameter_files), as_they_are(parameters)],
         remappings=list(joint.remappings.items()),
         # Where security is enabled; elsewhere it is a mere name.
         ros_arguments=['--enclave', f'/tendon_statics/{joint.namespace}/{name}'],

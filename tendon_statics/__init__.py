@@ -18,20 +18,23 @@ if TYPE_CHECKING:
         save_design,
     )
     from .physics import *  # noqa: F403
+    from .recordings.arm_recording import ArmRecording
     from .recordings.errors import RecordingError
     from .recordings.motion import mark_motion
-    from .recordings.reading.load import load_recording
+    from .recordings.reading.load import load_arm_recording, load_recording
     from .recordings.reading.table_options import TableOptions
     from .recordings.reading.topics import BagTopics
     from .recordings.recording import Recording
 
 __all__ = [
+    'ArmRecording',
     'BagTopics',
     'Recording',
     'RecordingError',
     'TableOptions',
     'default_design_path',
     'load_arm',
+    'load_arm_recording',
     'load_design',
     'load_design_uncertainty',
     'load_recording',
@@ -41,12 +44,14 @@ __all__ = [
 __all__ += physics.__all__
 
 _NOT_OF_PHYSICS = {
+    'ArmRecording': '.recordings.arm_recording',
     'BagTopics': '.recordings.reading.topics',
     'TableOptions': '.recordings.reading.table_options',
     'Recording': '.recordings.recording',
     'RecordingError': '.recordings.errors',
     'default_design_path': '.files.design_file',
     'load_arm': '.files.arm_file',
+    'load_arm_recording': '.recordings.reading.load',
     'load_design': '.files.design_file',
     'load_design_uncertainty': '.files.design_file',
     'load_recording': '.recordings.reading.load',

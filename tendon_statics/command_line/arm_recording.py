@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from ..estimation.arm_settings import ArmSettings
 from ..files.arm_file import load_arm
-from ..files.arm_parameters import ARM_ESTIMATIONS
+from ..files.arm_parameters import ARM_ESTIMATIONS, ARM_TENSION_SOURCES
 from ..files.arm_settings import arm_settings_from, joint_names
 from ..files.parameter_file import node_parameters, read_parameters
 from ..files.parameter_form import ParameterFileError
@@ -19,7 +19,9 @@ from ..physics import ArmError, Load
 from ..physics.deviations import TENSION_STDDEV
 from ..recordings.arm_recording import ArmRecording
 from ..recordings.hints import arm_hints
+from ..recordings.reading.arm_bag import DEFAULT_MEASURED
 from ..recordings.reading.load import ENDINGS, load_arm_recording
+from ..recordings.reading.topics import DEFAULT_TENSIONS, BagTopics
 from ..recordings.reading.units import of_arm as quantities_of
 from ..recordings.replay.arm_estimates import replay_arm
 from ..recordings.replay.arm_result import ArmReplay
@@ -27,7 +29,14 @@ from ..recordings.scaling import of_arm
 from .arm_options import add_arm_options, bend_angles_from, load_from
 from .options import UsageError, add_tension_stddev_option
 from .progress import with_progress
-from .recording_options import add_table_options, table_from
+from .recording_options import (
+    DEFAULTS,
+    TIP_WRENCH,
+    add_common_bag_options,
+    add_table_options,
+    names_of,
+    table_from,
+)
 
 ARM_NODE = '/arm_estimator'
 
@@ -74,7 +83,39 @@ def add_arm_recording_options(parser: argparse.ArgumentParser) -> None:
         f'{ARM_ESTIMATIONS[0]}',
     )
     add_tension_stddev_option(parser, default=None)
+    _add_bag_options(parser)
     add_table_options(parser, 'l_tip=Fz1,bend_angle_1=Enc1', 'tension=mN,bend_angle=deg')
+
+
+def _add_bag_options(parser: argparse.ArgumentParser) -> None:
+    """Add what says where in a bag the numbers are."""
+    bag = parser.add_argument_group('of a bag')
+    bag.add_argument(
+        '--tensions-topic',
+        metavar='TOPIC',
+        help='JointState or DynamicJointState with the cables by name, an array in the order of '
+        f"the arm's file, or ArmEstimate; default: {DEFAULT_TENSIONS}",
+    )
+    bag.add_argument(
+        '--tension-source',
+        choices=ARM_TENSION_SOURCES,
+        help='type of the tensions, as the parameter of arm_estimator; default: that of the '
+        'parameter file, or whichever there is',
+    )
+    bag.add_argument(
+        '--measured-topic',
+        metavar='TOPIC',
+        help='measured angles by the names of the joints: JointState or DynamicJointState; '
+        f'default: {DEFAULT_MEASURED}, if it is there',
+    )
+    bag.add_argument(
+        '--joint-names',
+        type=names_of,
+        metavar='NAME,...',
+        help='of all joints, from the base on; default: those of the parameter file, or '
+        'arm_joint_1 and so on',
+    )
+    add_common_bag_options(bag, 'parameter file')
 
 
 def followed_arm(options: argparse.Namespace) -> FollowedArm:
@@ -101,7 +142,8 @@ def _settings_from(options: argparse.Namespace) -> tuple[ArmSettings, Mapping[st
         if path is not None:
             node = options.node if options.node.startswith('/') else f'/{options.node}'
             given = node_parameters(read_parameters(Path(path)), node)
-        names = joint_names(arm, given.get('joint_names') or (), given.get('arm_name') or 'arm')
+        named = options.joint_names or given.get('joint_names') or ()
+        names = joint_names(arm, named, given.get('arm_name') or 'arm')
         settings = arm_settings_from(arm, given, names)
     except (ParameterFileError, SettingError) as error:
         raise ArmError(f'{path}: {error}') from None
@@ -118,7 +160,23 @@ def _recording_from(
     options: argparse.Namespace, settings: ArmSettings, given: Mapping[str, Any]
 ) -> ArmRecording:
     table = table_from(options, quantities_of(settings.arm))
-    found = load_arm_recording(options.data, settings.arm, table, progress=with_progress)
+    tip = TIP_WRENCH if given.get('tip_wrench') is True else None
+    topics = BagTopics(
+        tensions=(options.tensions_topic,) if options.tensions_topic else None,
+        tension_source=options.tension_source or given.get('tension_source'),
+        cable_names=settings.arm.cable_names,
+        arm_joints=settings.joint_names,
+        interface=options.interface,
+        bend_angle=options.measured_topic,
+        base=options.base_topic,
+        gravity_source=given.get('gravity_source') or DEFAULTS.gravity_source,
+        imu_mounting=settings.imu_mounting,
+        tip_wrench=options.tip_wrench_topic or tip,
+        max_skew=options.max_skew,
+        tension_skew=settings.max_skew if 'max_skew' in given else None,
+        clock=options.clock,
+    )
+    found = load_arm_recording(options.data, settings.arm, topics, table, progress=with_progress)
     return of_arm(found, settings, given)
 
 

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..estimation.estimate import Remark
+from ..physics import UPRIGHT
 from ..recordings.replay.arm_result import ArmReplay
 from ..recordings.replay.result import Replay
 from ..recordings.replay.summary import summary_of
@@ -33,14 +34,15 @@ def arm_facts(replay: ArmReplay, hints: Sequence[str]) -> Facts:
     first = summary_of(replay.joints[0])
     invalid, load = invalid_text(first), load_text(replay.load, 'the end of the last unit')
     slack = first.regimes.get('slack', 0)
-    risks = sum(joint.noise_risks > 0 for joint in replay.joints)
+    risky = [str(n) for n, of in enumerate(replay.joints, start=1) if of.noise_risks]
+    noise = f'{Remark.NOISE.value} (joint {", ".join(risky)})'
     return [
         *recording_facts(replay.recording, first),
         *(('read', note) for note in replay.recording.notes),
         *(('warning', hint) for hint in hints),
-        ('load', load),
+        *([('load', load)] if replay.load != UPRIGHT else []),
         ('estimation', replay.estimation),
-        *([('warning', f'{Remark.NOISE.value} (of {risks} joints)')] if risks else []),
+        *([('warning', noise)] if risky else []),
         *([('invalid', invalid)] if invalid else []),
         *([('slack', f'{slack} samples, in which no joint is followed')] if slack else []),
         *_tip_facts(replay),

@@ -54,7 +54,7 @@ def add_reading_options(parser: argparse.ArgumentParser) -> None:
 def _add_bag_options(bag: argparse._ArgumentGroup) -> None:
     bag.add_argument(
         '--tensions-topic',
-        type=_names,
+        type=names_of,
         metavar='TOPIC[,TOPIC]',
         help='Float64MultiArray, Float32MultiArray, JointState, DynamicJointState or Estimate; or '
         'two of WrenchStamped, Wrench, Float64 or Float32, cable l first; default: '
@@ -68,16 +68,10 @@ def _add_bag_options(bag: argparse._ArgumentGroup) -> None:
     )
     bag.add_argument(
         '--cable-names',
-        type=_names,
+        type=names_of,
         metavar='L,S',
         help='names in a JointState; default: those of the design file, or '
         f'{",".join(DEFAULTS.cable_names)}',
-    )
-    bag.add_argument(
-        '--interface',
-        metavar='NAME',
-        default=DEFAULTS.interface,
-        help='of the cables in a DynamicJointState; default: %(default)s',
     )
     bag.add_argument(
         '--force-component',
@@ -98,20 +92,31 @@ def _add_bag_options(bag: argparse._ArgumentGroup) -> None:
         metavar='TOPIC',
         help='Float64 or Float32; default: /measured_pressure, if it is there',
     )
+    bag.add_argument('--state-topic', metavar='TOPIC', help='String: slipping or held')
+    add_common_bag_options(bag, 'design file')
+
+
+def add_common_bag_options(bag: argparse._ArgumentGroup, file: str) -> None:
+    """Add what is alike of a unit and of an arm, whose parameters are in a file called so."""
+    bag.add_argument(
+        '--interface',
+        metavar='NAME',
+        default=DEFAULTS.interface,
+        help='of the cables in a DynamicJointState; default: %(default)s',
+    )
     bag.add_argument(
         '--base-topic',
         metavar='TOPIC',
         help='of the base: Imu, PoseStamped or QuaternionStamped; or its tilt in rad, Float64 or '
-        "Float32; default: what the design file's gravity_source says, or /measured_base_tilt, if "
+        f"Float32; default: what the {file}'s gravity_source says, or /measured_base_tilt, if "
         'it is there',
     )
     bag.add_argument(
         '--tip-wrench-topic',
         metavar='TOPIC',
         help='of the force at the tip, in the joint frame: WrenchStamped or Wrench; default: '
-        '/tip_wrench if the design file says tip_wrench, else none',
+        f'/tip_wrench if the {file} says tip_wrench, else none',
     )
-    bag.add_argument('--state-topic', metavar='TOPIC', help='String: slipping or held')
     bag.add_argument(
         '--max-skew',
         type=float,
@@ -249,7 +254,8 @@ def say_notes(recording: Session, hints: Sequence[str]) -> None:
         print(f'tendon-statics: {recording.name}: {text}', file=sys.stderr)
 
 
-def _names(text: str) -> tuple[str, ...]:
+def names_of(text: str) -> tuple[str, ...]:
+    """Return the names in a list with commas."""
     return tuple(filter(None, (name.strip() for name in text.split(','))))
 
 

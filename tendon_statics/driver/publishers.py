@@ -18,20 +18,20 @@ DEPTH = 1000
 
 
 class TensionPublisher(Protocol):
-    """Publishes pairs of raw values, of which one may be missing."""
+    """Publishes the raw values of all cables, of which one may be missing."""
 
     def subscription_count(self) -> int:
         """Subscribers on that topic which has the fewest."""
 
     def publish(self, raw: Sequence[float], stamp: int, missing: int | None) -> int:
-        """Publish one pair with a stamp in ns and return how many messages that took.
+        """Publish one value a cable with a stamp in ns; return how many messages that took.
 
-        `missing` is the cable that is left out, 0 for l and 1 for s.
+        `missing` is the cable that is left out, counted from 0: of a unit 0 is l and 1 is s.
         """
 
 
 class ArrayPublisher:
-    """``std_msgs/Float64MultiArray`` [T_l, T_s] on ``tensions``, without a stamp."""
+    """``std_msgs/Float64MultiArray`` on ``tensions``, without a stamp: [T_l, T_s], or an arm's."""
 
     def __init__(self, node: Node) -> None:
         self._tensions = node.create_publisher(Float64MultiArray, 'tensions', DEPTH)
@@ -63,7 +63,7 @@ class JointStatePublisher:
         return count
 
     def publish(self, raw: Sequence[float], stamp: int, missing: int | None) -> int:
-        """Publish one message; of cable l name and effort are missing, of cable s the effort."""
+        """Publish one message; the first cable may be missing, or the effort of another."""
         names, effort = self._cable_names, list(raw)
         if missing is not None:
             del effort[missing]

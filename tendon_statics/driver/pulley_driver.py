@@ -9,23 +9,24 @@ from __future__ import annotations
 import json
 import math
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rclpy.clock import Clock, ClockType
 from rclpy.logging import get_logger
 from rclpy.node import Node
 
-from ..files.cable_parameters import BIASES, GAINS
-from ..files.driver_parameters import DRIVER_PARAMETERS
+from ..files.arm_settings import arm_in
+from ..files.driver_parameters import OF_UNIT, OWN, of_arm
 from ..files.fault_settings import STAMP_FAULTS, Fault, FaultSettings, fault_parameters
 from ..files.installed_files import installed_config
-from ..files.parameter_kinds import SettingError
+from ..files.parameter_kinds import Parameter, SettingError
 from ..node.parameters.declaration import declare_all
 from ..node.parameters.unknown import warn_of_unknown_parameters
 from ..node.program import StartError
+from ..physics.arm import Arm
 from ..recordings.errors import RecordingError
-from ..recordings.reading.load import load_recording
+from ..recordings.reading.load import load_arm_recording, load_recording
 from .faults import FaultMaker, Reading
 from .publishers import (
     ArrayPublisher,
@@ -41,34 +42,53 @@ CATCH_UP_TIME = 0.1
 """s; readings that are later than that are skipped, so that no backlog grows"""
 
 
+def _measured(arm: Arm | None) -> tuple[Parameter, ...]:
+    """The parameters that say how the tensions are measured."""
+    return OF_UNIT if arm is None else of_arm(arm.cable_names)
+
+
+def _rows(file: str, arm: Arm | None) -> Sequence[tuple[float, ...]]:
+    """Read what is played: the tensions of all cables, row by row.
+
+    Raises
+    ------
+    RecordingError
+        If it cannot be read as a whole.
+    """
+    if arm is None:
+        return load_recording(file or installed_config('demo_tensions.csv')).whole().tensions()
+    path = file or installed_config('arm_tensions.csv')
+    return load_arm_recording(path, arm).whole().tensions()
+
+
 class PulleyDriver(Node):
     """Publishes the rows of a tension file at a steady rate."""
 
     def __init__(self) -> None:
         super().__init__('pulley_driver')
-        values = declare_all(self, DRIVER_PARAMETERS)
+        values = declare_all(self, OWN)
+        arm = arm_in(values['arm_file']) if values['arm_file'] else None
+        values |= declare_all(self, (*_measured(arm), *fault_parameters()))
         self._loop, self._rate, self._count = values['loop'], values['rate'], values['count']
         self._awaited_subscribers = values['awaited_subscribers']
-        self._publisher = self._make_publisher(values)
-        self._gains = [values[gain.name] for gain in GAINS]
-        self._biases = [values[bias.name] for bias in BIASES]
+        self._publisher = self._make_publisher(values, arm)
+        self._gains = [value for name, value in values.items() if name.endswith('gain')]
+        self._biases = [value for name, value in values.items() if name.endswith('bias')]
         settings = FaultSettings(
             **{fault.name: values[fault.name] for fault in fault_parameters()}
         )
         try:
-            path = values['file'] or installed_config('demo_tensions.csv')
-            recording = load_recording(path).whole()
+            self._rows = _rows(values['file'], arm)
         except RecordingError as error:
             raise StartError(str(error)) from None
         warn_of_unknown_parameters(self)
-        self._rows = recording.tensions()
         for fault in STAMP_FAULTS:
             if settings.probability(fault) > 0.0 and isinstance(self._publisher, ArrayPublisher):
                 raise SettingError(
                     f'{fault.value}_probability is {settings.probability(fault):g}, but '
                     'tension_source is array, of which no message has a stamp'
                 )
-        self._faults = FaultMaker(settings)
+        self._faults = FaultMaker(settings, len(self._gains))
         self._sent: Counter[str] = Counter()
         self._done = 0  # readings that were sent or skipped
         self._begin: float | None = None  # s
@@ -88,12 +108,13 @@ class PulleyDriver(Node):
         self._end()
         super().destroy_node()
 
-    def _make_publisher(self, values: Mapping[str, Any]) -> TensionPublisher:
+    def _make_publisher(self, values: Mapping[str, Any], arm: Arm | None) -> TensionPublisher:
         source = values['tension_source']
         if source == 'array':
             return ArrayPublisher(self)
         if source == 'joint_state':
-            return JointStatePublisher(self, values['cable_names'])
+            names = values['cable_names'] if arm is None else arm.cable_names
+            return JointStatePublisher(self, names)
         return WrenchPairPublisher(self, values['wrench_component'])
 
     # Sending

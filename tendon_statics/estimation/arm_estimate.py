@@ -65,7 +65,7 @@ class ArmEstimate(AnyEstimate):
         return self.state.bend_angle_stddevs(self.settings.tension_stddev)
 
     @property
-    def intervals(self) -> Sequence[Interval] | None:
+    def intervals(self) -> Sequence[Interval | None] | None:
         """Ends of the interval that holds each angle with the probability of the settings."""
         return None
 
@@ -100,6 +100,11 @@ class ArmEstimate(AnyEstimate):
     def tip_interval(self) -> tuple[TipPose, TipPose] | None:
         """Lower and upper ends of the intervals that hold x, z and tilt of the tip."""
         return None
+
+    @property
+    def bands(self) -> list[list[Interval]]:
+        """Of each joint the angles at which friction can hold it, with the others frozen."""
+        return [joint.admissible_angles for joint in self.state.joints]
 
     # For people
 

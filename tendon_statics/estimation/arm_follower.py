@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 from ..physics import BendAngleError
 from .arm_estimate import ArmEstimate
+from .arm_filtering import ArmFiltering
 from .arm_settings import ArmSettings
 from .arm_tracking import ArmTracking
 from .estimate import KnownLoad, Sample
@@ -14,7 +16,10 @@ from .health import Health
 from .method import WayOfEstimating
 from .reading_estimator import ReadingEstimator
 
-ARM_METHODS: dict[str, type[WayOfEstimating[ArmSettings, ArmEstimate]]] = {'tracking': ArmTracking}
+ARM_METHODS: dict[str, type[WayOfEstimating[ArmSettings, Any]]] = {
+    'tracking': ArmTracking,
+    'filtering': ArmFiltering,
+}
 """Name → the way from tensions to an estimate of an arm; the first is the default"""
 
 

@@ -36,7 +36,7 @@ class Filtering(Method):
         """Where the unit is: as the filter said, or angle and deviation that it was told"""
         self._assured = True
         self._filter = self._new_filter()
-        self._clock = _ForwardClock()
+        self._clock = ForwardClock()
         self._newest: FilteredEstimate | None = None
         self._waiting: deque[tuple[float, float]] = deque(maxlen=MOST_WAITING)
         """Of samples that are not committed: time of the filter, and when they were measured"""
@@ -159,7 +159,7 @@ class Filtering(Method):
         self._waiting.clear()
 
 
-class _ForwardClock:
+class ForwardClock:
     """Times of samples for a filter, which only go forward, whatever their stamps do."""
 
     def __init__(self) -> None:

@@ -52,6 +52,15 @@ def load_arm(path: str | Path) -> Arm:
         raise ArmError(f'{path}: {error}', key=getattr(error, 'key', '')) from None
 
 
+def is_arm_file(path: str | Path) -> bool:
+    """Whether a YAML file is meant to be an arm, by its keys; False too if it cannot be read."""
+    try:
+        content = read_yaml(Path(path))
+    except YamlFileError:
+        return False
+    return isinstance(content, Mapping) and 'units' in content
+
+
 def design_files_of(path: str | Path) -> list[Path]:
     """Return the files of designs that an arm's file names, each once, in its order."""
     path = Path(path)

@@ -10,6 +10,7 @@ from launch.logging import get_logger
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
+from ..files.parameter_file import ESTIMATORS
 from .node_arguments import NODE_ARGUMENTS, given_parameters, respawn_options
 from .rviz import Shown, rviz_arguments
 
@@ -44,7 +45,7 @@ def own_node(
     name
         Of program and node.
     """
-    own = ('use_sim_time', 'autostart') if name == 'estimator' else ('use_sim_time',)
+    own = ('use_sim_time', 'autostart') if name in ESTIMATORS else ('use_sim_time',)
     return Node(
         package='tendon_statics',
         executable=name,

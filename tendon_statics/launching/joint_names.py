@@ -21,6 +21,15 @@ class JointNames(NamedTuple):
     joint_name: str = 'bend'
 
 
+class ArmNames(NamedTuple):
+    """Those of an arm, likewise."""
+
+    frame_id: str
+    arm_name: str
+    joint_names: tuple[str, ...]
+    """From the base on"""
+
+
 def check_joint_name(parameter: str, value: object) -> str:
     """Return a name if it is one, or raise a `JointNameError`."""
     if not isinstance(value, str) or not value:

@@ -1,4 +1,4 @@
-"""The joints of a rig in one YAML list, as ``launch/rig.launch.py`` takes it."""
+"""The joints and arms of a rig in one YAML list, as ``launch/rig.launch.py`` takes it."""
 
 from __future__ import annotations
 
@@ -8,13 +8,17 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from ..files.arm_settings import joint_names
 from ..files.cable_parameters import TENSION_SOURCES
+from ..files.parameter_kinds import SettingError
 from ..files.yaml_file import YamlFileError, read_yaml
+from ..physics.arm import Arm
 from ..physics.design import JointDesign
 from ..physics.errors import TendonStaticsError
 from .base_turn import load_base_turn
-from .joint_names import JointNameError, JointNames, load_joint_names
-from .rig_values import READERS
+from .description import arm_description, unit_description
+from .joint_names import ArmNames, JointNameError, JointNames, load_joint_names
+from .rig_values import READERS, check_for_arm, check_recording
 
 
 class RigFileError(TendonStaticsError, ValueError):
@@ -33,15 +37,15 @@ class RigFileError(TendonStaticsError, ValueError):
 
 @dataclasses.dataclass(frozen=True)
 class RigJoint:
-    """One joint of a rig: an estimator, and in simulation the driver that it listens to."""
+    """One joint of a rig, or an arm of several: an estimator, and in simulation its driver."""
 
     namespace: str
     """without slashes at its ends"""
     design_file: Path
-    design: JointDesign
+    design: JointDesign | Arm
     """what is in `design_file`"""
-    names: JointNames
-    """of the joint: from the parameters, else the design file, else after the namespace"""
+    names: JointNames | ArmNames
+    """from the parameters, else the design file of a joint, else after the namespace"""
     tension_source: str = TENSION_SOURCES[0]
     parameters: Mapping[str, Any] = dataclasses.field(default_factory=dict)
     """of the estimator, by dotted name"""
@@ -52,9 +56,19 @@ class RigJoint:
     """parameters of the driver in simulation, by dotted name"""
 
     @property
+    def estimator(self) -> str:
+        """Program and node that estimates it."""
+        return 'arm_estimator' if isinstance(self.design, Arm) else 'estimator'
+
+    @property
+    def parameter_files(self) -> list[Path]:
+        """Files of ROS parameters, which that of an arm is not."""
+        return [] if isinstance(self.design, Arm) else [self.design_file]
+
+    @property
     def joint_state_topic(self) -> str:
-        """Where the estimator's ``~/joint_state`` is, seen from the namespace."""
-        topic = 'estimator/joint_state'
+        """Where the estimator's joint states are, seen from the namespace."""
+        topic = f'{self.estimator}/joint_state{"s" * isinstance(self.design, Arm)}'
         for name, other in self.remappings.items():
             if self._seen_from_namespace(name) == topic:
                 return self._seen_from_namespace(other)
@@ -62,26 +76,46 @@ class RigJoint:
 
     def _seen_from_namespace(self, name: str) -> str:
         """The estimator's name of a topic, however it is written, in one way of writing."""
-        return re.sub('^~/', 'estimator/', name).removeprefix(f'/{self.namespace}/')
+        return re.sub('^~/', f'{self.estimator}/', name).removeprefix(f'/{self.namespace}/')
 
     @property
     def base_turn(self) -> tuple[float, float] | None:
         """Roll and pitch in rad of its base, where gravity's direction is given."""
         return load_base_turn(self.design_file, f'/{self.namespace}/estimator', self.parameters)
 
+    def description(self) -> str:
+        """The URDF of it, for robot_state_publisher.
+
+        Raises
+        ------
+        DescriptionError
+            If xacro is not installed.
+        """
+        names = self.names
+        if isinstance(names, ArmNames):
+            prefix = f'{self.namespace}/'
+            return arm_description(
+                self.design_file, names.frame_id, names.joint_names, prefix, self.base_turn
+            )
+        return unit_description(self.design_file, names, f'{self.namespace}/unit', self.base_turn)
+
     def estimator_parameters(self) -> dict[str, Any]:
         """All parameters of the estimator."""
-        # The design too, for a design file may hold it under the name of another node.
+        design: dict[str, Any] = {'arm_file': str(self.design_file)}
+        if not isinstance(self.design, Arm):
+            # A design file may hold it under the name of another node.
+            design = {f'design.{name}': of for name, of in dataclasses.asdict(self.design).items()}
         return {
-            **{f'design.{name}': value for name, value in dataclasses.asdict(self.design).items()},
+            **design,
             'tension_source': self.tension_source,
             **self.parameters,
-            **self.names._asdict(),
+            **{name: _plain(of) for name, of in self.names._asdict().items()},
         }
 
     def driver_parameters(self) -> dict[str, Any]:
         """All parameters of the driver in simulation: what it shares with the estimator first."""
         return {
+            **({'arm_file': str(self.design_file)} if isinstance(self.design, Arm) else {}),
             'tension_source': self.tension_source,
             **self.parameters,
             **({'file': str(self.recording)} if self.recording else {}),
@@ -94,6 +128,7 @@ def load_rig(path: str | Path) -> list[RigJoint]:
 
     The file is a list of mappings with the keys ``namespace`` and ``design_file`` and, where
     needed, ``tension_source``, ``parameters``, ``remappings``, ``recording`` and ``simulation``.
+    The design file of an arm is its file, as `load_arm` takes it.
     Relative paths start from the file's own folder.
 
     Raises
@@ -146,8 +181,37 @@ def _joint(entry: object, number: int, folder: Path) -> RigJoint:
         if key not in values:
             raise RigFileError(f'joint {number}: {key} is missing', key=key)
     design_file, design = values.pop('design_file')
-    names = _names(design_file, values['namespace'], values.get('parameters', {}), number)
+    values = {**({'tension_source': 'joint_state'} if isinstance(design, Arm) else {}), **values}
+    try:
+        key = 'tension_source'
+        if isinstance(design, Arm):
+            check_for_arm(values[key])
+        key = 'recording'
+        if key in values:
+            check_recording(values[key], design)
+    except ValueError as error:
+        raise RigFileError(
+            f'joint {number}: {key} is {str(entry[key])!r}: {error}', key=key
+        ) from None
+    parameters = values.get('parameters', {})
+    if isinstance(design, Arm):
+        names: JointNames | ArmNames = _arm_names(design, values['namespace'], parameters, number)
+    else:
+        names = _names(design_file, values['namespace'], parameters, number)
     return RigJoint(design_file=design_file, design=design, names=names, **values)
+
+
+def _arm_names(arm: Arm, namespace: str, parameters: Mapping[str, Any], number: int) -> ArmNames:
+    name = parameters.get('arm_name', namespace.replace('/', '_'))
+    try:
+        joints = joint_names(arm, parameters.get('joint_names', ()), name)
+    except SettingError as error:
+        raise RigFileError(f'joint {number}: parameters: {error}', key='parameters') from None
+    return ArmNames(parameters.get('frame_id', f'{namespace}/base'), name, joints)
+
+
+def _plain(value: object) -> object:
+    return list(value) if isinstance(value, tuple) else value
 
 
 def _names(

@@ -10,12 +10,15 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from ..files.arm_file import is_arm_file, load_arm
+from ..files.arm_parameters import ARM_TENSION_SOURCES
 from ..files.cable_parameters import TENSION_SOURCES
 from ..files.design_file import load_design
+from ..physics.arm import Arm
 from ..physics.design import JointDesign
-from ..physics.errors import DesignError
+from ..physics.errors import ArmError, DesignError
 from ..recordings.errors import RecordingError
-from ..recordings.reading.load import load_recording
+from ..recordings.reading.load import load_arm_recording, load_recording
 from .joint_names import JointNames, check_joint_name
 
 
@@ -28,11 +31,12 @@ def _namespace(value: object, _folder: Path) -> str:
     return value.strip('/')
 
 
-def _design_file(value: object, folder: Path) -> tuple[Path, JointDesign]:
+def _design_file(value: object, folder: Path) -> tuple[Path, JointDesign | Arm]:
+    """Read the design of a unit, or an arm of several."""
     path = _path(value, folder)
     try:
-        return path, load_design(path)
-    except DesignError as error:
+        return path, load_arm(path) if is_arm_file(path) else load_design(path)
+    except (ArmError, DesignError) as error:
         raise ValueError(str(error)) from None
 
 
@@ -42,13 +46,21 @@ def _tension_source(value: object, _folder: Path) -> str:
     return str(value)
 
 
-def _recording(value: object, folder: Path) -> Path:
-    path = _path(value, folder)
+def check_for_arm(tension_source: str) -> None:
+    """Check that an arm's cables can be measured so, or raise a `ValueError`."""
+    if tension_source not in ARM_TENSION_SOURCES:
+        raise ValueError(f'allowed of an arm is one of {", ".join(ARM_TENSION_SOURCES)}')
+
+
+def check_recording(path: Path, design: JointDesign | Arm) -> None:
+    """Check that a recording of a unit or an arm can be played, or raise a `ValueError`."""
     try:
-        load_recording(path).whole()
+        if isinstance(design, Arm):
+            load_arm_recording(path, design).whole()
+        else:
+            load_recording(path).whole()
     except RecordingError as error:
         raise ValueError(str(error)) from None
-    return path
 
 
 def _path(value: object, folder: Path) -> Path:
@@ -125,6 +137,7 @@ _TOPIC = re.compile(r'(?!__)(?:~?/)?[A-Za-z_][A-Za-z0-9_]*(?:/[A-Za-z_][A-Za-z0-
 
 _HOMES = {
     'design': 'design_file',
+    'arm_file': 'design_file',
     'tension_source': 'tension_source',
     'recording': 'recording',
     'file': 'recording',
@@ -139,6 +152,6 @@ READERS: Mapping[str, Callable[[object, Path], Any]] = {
     'tension_source': _tension_source,
     'parameters': _parameters,
     'remappings': _remappings,
-    'recording': _recording,
+    'recording': _path,
     'simulation': _simulation,
 }

@@ -33,6 +33,8 @@ class Shown(NamedTuple):
     frame_id: str
     has_base: bool = False
     """Whether its description has a link with Z up, for a base that is tilted"""
+    estimator: str = 'estimator'
+    """Node whose markers are shown"""
 
 
 def rviz_config(joints: Sequence[Shown]) -> dict[str, Any]:
@@ -51,6 +53,7 @@ def rviz_config(joints: Sequence[Shown]) -> dict[str, Any]:
         key = 'Topic' if display['Class'] == MARKERS else 'Description Topic'
         for joint in joints:
             own = copy.deepcopy(display)
+            own[key]['Value'] = own[key]['Value'].replace('/estimator/', f'/{joint.estimator}/')
             if joint.namespace:
                 own['Name'] += f' of {joint.namespace}'
                 own[key]['Value'] = f'/{joint.namespace}{own[key]["Value"]}'

@@ -35,6 +35,8 @@ from .uncertainty import SlipAngleDistribution, slip_angle_distribution
 if TYPE_CHECKING:
     from .arm import (
         Arm,
+        ArmFilter,
+        ArmFilterState,
         ArmState,
         ArmTipForce,
         ArmTracker,
@@ -55,6 +57,8 @@ __all__ = [
     'UPRIGHT',
     'Arm',
     'ArmError',
+    'ArmFilter',
+    'ArmFilterState',
     'ArmState',
     'ArmTipForce',
     'ArmTracker',

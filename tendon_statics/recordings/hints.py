@@ -20,6 +20,11 @@ _ALL_BELIEVED = Plausibility()
 
 _COUNTS = {2: 'two'}
 
+DESIGN_FILE, PARAMETER_FILE = 'the design file', 'the parameter file'
+"""What has the parameters of a unit, of an arm"""
+
+_UNIT_GAINS = f'{DESIGN_FILE} has to have cable_l.gain and cable_s.gain'
+
 BEYOND = 0.2
 """Share of angles beyond the stop above which their unit is doubted: a unit rests against its stop
 and does not pass it, but for noise"""
@@ -52,10 +57,10 @@ def hints(
     return [
         *_of_angles(angles, [design.max_bend_angle] * len(angles)),
         *_of_tilt(recording),
-        *_of_tensions(cables, design.weight, 'the unit', ('cable_l.gain', 'cable_s.gain')),
+        *_of_tensions(cables, design.weight, 'the unit', _UNIT_GAINS),
         *_of_time(recording),
         *_of_clock(recording),
-        *_of_spikes(recording, cables, design.weight, believed),
+        *_of_spikes(recording, cables, design.weight, believed, DESIGN_FILE),
     ]
 
 
@@ -66,14 +71,15 @@ def arm_hints(
     cables, measured = dict(recording.cable_tensions), recording.bend_angles
     angles = {f'bend_angle_{joint}': of for joint, of in measured.items()}
     weight = sum(design.weight for design in arm.designs)
-    gains = tuple(f'cables.{name}.gain' for name in cables)
+    gains = ' and '.join(f'cables.{name}.gain' for name in cables)
+    gains = f'{PARAMETER_FILE} has to have {gains}'
     return [
         *_of_angles(angles, [arm.stops[joint - 1] for joint in measured]),
         *_of_tilt(recording),
         *_of_tensions(cables, weight, 'the arm', gains),
         *_of_time(recording),
         *_of_clock(recording),
-        *_of_spikes(recording, cables, weight, believed),
+        *_of_spikes(recording, cables, weight, believed, PARAMETER_FILE),
     ]
 
 
@@ -112,7 +118,7 @@ def _of_tilt(recording: Session) -> Iterator[str]:
 
 
 def _of_tensions(
-    cables: Mapping[str, Floats], weight: float, whose: str, gains: Sequence[str]
+    cables: Mapping[str, Floats], weight: float, whose: str, gains: str
 ) -> Iterator[str]:
     """Doubt tensions that nothing so heavy has; readings of load cells are not looked at."""
     tensions = np.concatenate([*cables.values()])
@@ -124,8 +130,7 @@ def _of_tensions(
         yield (
             f'the tensions, {middle:.4g} N in the middle, are {middle / weight:.3g} times '
             f'the weight of {whose}: if they are mN or gf, say so, {first} [mN] or '
-            '--units tension=mN; if they are the counts of an amplifier, the design file has to '
-            f'have {", ".join(gains[:-1])} and {gains[-1]}'
+            f'--units tension=mN; if they are the counts of an amplifier, {gains}'
         )
         return
     total = np.sum([*cables.values()], axis=0)
@@ -140,7 +145,11 @@ def _of_tensions(
 
 
 def _of_spikes(
-    recording: Session, cables: Mapping[str, Floats], weight: float, believed: Plausibility
+    recording: Session,
+    cables: Mapping[str, Floats],
+    weight: float,
+    believed: Plausibility,
+    file: str,
 ) -> Iterator[str]:
     if believed.max_rate > 0.0 and recording.time is not None:
         return
@@ -152,7 +161,7 @@ def _of_spikes(
             yield (
                 f'{name} goes from {values[place - 1]:.4g} N to {values[place]:.4g} N and back '
                 f'within one sample, {len(places)} times: if the cable does not, set its '
-                'max_tension, or max_tension_rate, in the design file (a rate needs times; '
+                f'max_tension, or max_tension_rate, in {file} (a rate needs times; '
                 '--rate HZ makes those of a table), or a tracked unit is put where it is not'
             )
 

@@ -32,7 +32,10 @@ def of_unit(recording: Recording, unit: Unit) -> Recording:
     applies, (tension_l, tension_s), faults = _in_newtons(recording, [*scales.values()])
     believed = unit.settings.plausibility
     limited = any(f'{name}.max_tension' in unit.parameters for name in scales)
-    said = [*unit.misspelt, *_said(scales, believed, recording, applies, limited=limited)]
+    said = [
+        *unit.misspelt,
+        *_said(scales, believed, recording, applies, 'design', limited=limited),
+    ]
     return dataclasses.replace(
         recording,
         tension_l=tension_l,
@@ -40,7 +43,7 @@ def of_unit(recording: Recording, unit: Unit) -> Recording:
         readings=(recording.tension_l, recording.tension_s) if applies else None,
         in_newtons=True,
         faults=faults,
-        notes=(*recording.notes, *said),
+        notes=(*recording.notes, *unit.misspelt, *said),
     )
 
 
@@ -58,7 +61,9 @@ def of_arm(
     scales = {f'cables.{name}': of for name, of in zip(names, settings.scales, strict=True)}
     applies, tensions, faults = _in_newtons(recording, [*scales.values()])
     limited = any(f'{name}.max_tension' in given for name in scales)
-    said = _said(scales, settings.plausibility, recording, applies, limited=limited)
+    said = _said(
+        *(scales, settings.plausibility, recording, applies, 'parameter'), limited=limited
+    )
     return dataclasses.replace(
         recording,
         cable_tensions=dict(zip(names, tensions, strict=True)),
@@ -111,6 +116,7 @@ def _said(
     believed: Plausibility,
     recording: Session,
     applies: bool,
+    file: str,
     *,
     limited: bool,
 ) -> list[str]:
@@ -119,23 +125,23 @@ def _said(
     found = []
     if applies:
         found += [
-            f'{cable}: tension = {scale.gain:g} · reading {scale.bias:+g} N, of the design file'
+            f'{cable}: tension = {scale.gain:g} · reading {scale.bias:+g} N, of the {file} file'
             for cable, scale in scales.items()
         ]
     elif given:
         found.append(
-            f'gain and bias of {" and ".join(given)} in the design file are not applied: the '
+            f'gain and bias of {" and ".join(given)} in the {file} file are not applied: the '
             'tensions were recorded in N'
         )
     if limited:
         found.append(
             'tensions above '
             + ', '.join(f'{scale.max_tension:g} N ({name})' for name, scale in scales.items())
-            + ' are implausible, by the design file'
+            + f' are implausible, by the {file} file'
         )
     if believed.max_rate > 0.0 and recording.time is None:
         found.append(
-            'max_tension_rate of the design file is not checked: there are no times '
+            f'max_tension_rate of the {file} file is not checked: there are no times '
             '(--rate HZ makes them)'
         )
     elif believed.is_checked:
@@ -145,5 +151,5 @@ def _said(
             'frozen': believed.frozen_count,
         }
         named = ' or '.join(name for name, limit in checks.items() if limit)
-        found.append(f'what is {named} is not believed, by the design file')
+        found.append(f'what is {named} is not believed, by the {file} file')
     return found

@@ -14,6 +14,7 @@ from ros_programs import Program, spinning, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
+from tendon_statics import load_arm
 from tendon_statics.driver.faults import FaultMaker
 from tendon_statics.files.fault_settings import (
     IMPLAUSIBLE_TENSION,
@@ -22,7 +23,7 @@ from tendon_statics.files.fault_settings import (
     FaultSettings,
 )
 from tendon_statics.files.installed_files import installed_config
-from tendon_statics.recordings.reading.load import load_recording
+from tendon_statics.recordings.reading.load import load_arm_recording, load_recording
 
 ROWS = load_recording(installed_config('demo_tensions.csv')).tensions()
 TOPICS = {
@@ -128,6 +129,51 @@ def test_raw_values_become_tensions_again_by_gain_and_bias(kind, tmp_path):
         raw = [force.x for force in forces]
     read = [g * value + b for g, value, b in zip(gains, raw, biases, strict=True)]
     assert tuple(read) == true
+
+
+ARM_FILE = installed_config('arm.yaml')
+ARM_CABLES = ('l_mid', 's_mid', 'l_tip', 's_tip')
+
+
+def test_an_arms_recording_is_played_with_all_cables_in_one_message_by_name():
+    rows = load_arm_recording(installed_config('arm_tensions.csv'), load_arm(ARM_FILE)).tensions()
+    scale = ('cables.s_tip.gain:=0.5', 'cables.s_tip.bias:=0.25')
+    with (
+        audience('joint_state') as heard,
+        driver(f'arm_file:={ARM_FILE}', 'rate:=500', 'count:=20', *scale),
+    ):
+        wait_for('twenty messages', lambda: heard.count() == 20)
+    played = heard.messages['tensions']
+    assert {tuple(message.name) for message in played} == {ARM_CABLES}
+    for row, message in zip(rows, played, strict=False):
+        *others, s_tip = message.effort
+        assert [*others, 0.5 * s_tip + 0.25] == pytest.approx(row)
+
+
+def test_an_arm_is_played_as_an_array_in_the_order_of_its_file(tmp_path):
+    path = tmp_path / 'arm.csv'
+    path.write_text('s_tip;l_tip;s_mid;l_mid\n4,5;3;2;1\n')
+    with (
+        audience() as heard,
+        driver(f'arm_file:={ARM_FILE}', f'file:={path}', 'tension_source:=array', 'count:=1'),
+    ):
+        wait_for('the message', lambda: heard.count() == 1)
+    assert list(heard.messages['tensions'][0].data) == [1.0, 2.0, 3.0, 4.5]
+
+
+@pytest.mark.parametrize(
+    ('parameters', 'named'),
+    [
+        ((f'arm_file:={ARM_FILE}', 'file:=DEMO'), 'there is no column l_mid'),
+        ((f'arm_file:={ARM_FILE}', 'tension_source:=wrench_pair'), 'tension_source'),
+        (('arm_file:=none.yaml',), 'arm_file: none.yaml: it cannot be read'),
+    ],
+)
+def test_what_is_no_recording_of_the_arm_is_refused_in_one_line(parameters, named):
+    demo = str(installed_config('demo_tensions.csv'))
+    with driver(*(one.replace('DEMO', demo) for one in parameters)) as program:
+        assert program.process.wait(60.0) == 1
+        assert named in program.output()
 
 
 @pytest.mark.parametrize('kind', KINDS)

@@ -1,6 +1,8 @@
 """`load_rig`: joints with all that the launch file needs, and errors that name key and value."""
 
+import math
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 from designs import PRELIMINARY
@@ -150,6 +152,91 @@ def test_the_installed_example_has_one_joint_of_each_kind():
     assert sorted(joint.tension_source for joint in joints) == [
         *('array', 'joint_state', 'wrench_pair')
     ]
+
+
+ARM = MINIMAL.replace('unit.yaml', 'arm.yaml')
+
+
+@pytest.fixture
+def with_arm(folder):
+    """The same folder with an arm of two such units in it, and a recording of its cables."""
+    (folder / 'arm.yaml').write_text(
+        'units: [{design_file: unit.yaml, length: 0.02}, {design_file: unit.yaml, length: 0.01}]\n'
+        'cables: [{name: wl, side: l, last_unit: 2}, {name: ws, side: s, last_unit: 2}]\n'
+    )
+    (folder / 'arm_run.csv').write_text('wl;ws\n1,5;2\n')
+    return folder
+
+
+def test_an_arm_stands_in_a_rig_as_a_joint_does(with_arm):
+    arm, unit = load(with_arm, ARM + MINIMAL.replace('left', 'right'))
+    assert (arm.estimator, unit.estimator) == ('arm_estimator', 'estimator')
+    assert arm.joint_state_topic == 'arm_estimator/joint_states'
+    assert arm.parameter_files == []
+    assert arm.estimator_parameters() == {
+        'arm_file': str(with_arm / 'arm.yaml'),
+        'tension_source': 'joint_state',
+        'frame_id': 'left/base',
+        'arm_name': 'left',
+        'joint_names': ['left_joint_1', 'left_joint_2'],
+    }
+    assert arm.driver_parameters() == {
+        'arm_file': str(with_arm / 'arm.yaml'),
+        'tension_source': 'joint_state',
+    }
+    links = {link.get('name') for link in ElementTree.fromstring(arm.description()).iter('link')}
+    assert links == {'left/base', 'left/unit_1', 'left/unit_2', 'left/tip'}
+
+
+def test_what_an_arm_is_given_goes_to_its_nodes(with_arm):
+    (arm,) = load(
+        with_arm,
+        ARM
+        + """
+  tension_source: array
+  parameters:
+    cables: {wl: {gain: 0.5}}
+    frame_id: table
+    joint_names: [shoulder, elbow]
+    gravity_direction: [1.0, 0.0, -1.0]
+  remappings: {~/joint_states: statics/measured_js}
+  recording: arm_run.csv
+""",
+    )
+    estimator = arm.estimator_parameters()
+    assert estimator['cables.wl.gain'] == arm.driver_parameters()['cables.wl.gain'] == 0.5
+    assert (estimator['frame_id'], estimator['tension_source']) == ('table', 'array')
+    assert arm.joint_state_topic == 'statics/measured_js'
+    assert arm.driver_parameters()['file'] == str(with_arm / 'arm_run.csv')
+    robot = ElementTree.fromstring(arm.description())
+    assert robot.find("joint[@name='elbow']") is not None
+    assert robot.find("joint[@name='table_tilt']/origin").get('rpy').split()[1] == repr(
+        math.atan2(1.0, 1.0)
+    )
+
+
+@pytest.mark.parametrize(
+    ('text', 'key', 'named'),
+    [
+        ('  tension_source: wrench_pair', 'tension_source', ['of an arm is one of joint_state']),
+        ('  recording: run.csv', 'recording', ['there is no column wl']),
+        ('  parameters: {joint_names: [a]}', 'parameters', ['the arm has 2 joints']),
+        ('  parameters: {arm_file: x}', 'parameters', ['its own: design_file']),
+    ],
+)
+def test_what_does_not_fit_an_arm_is_said(with_arm, text, key, named):
+    with pytest.raises(RigFileError) as raised:
+        load(with_arm, ARM + text)
+    assert raised.value.key == key
+    for part in named:
+        assert part in str(raised.value)
+
+
+def test_an_arm_file_that_is_none_is_named(with_arm):
+    path = with_arm / 'arm.yaml'
+    path.write_text(path.read_text().replace('side: l', 'side: r'))
+    with pytest.raises(RigFileError, match=r"design_file is 'arm.yaml': .*arm\.yaml: .*side"):
+        load(with_arm, ARM)
 
 
 @pytest.mark.parametrize(

@@ -8,11 +8,13 @@ import shutil
 import signal
 import subprocess
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 from lifecycle_msgs.srv import GetState
 from rclpy.node import Node
 from ros_programs import Program, ask, spinning, wait_for
+from sensor_msgs.msg import JointState
 from tendon_statics_interfaces.msg import Estimate
 
 from tendon_statics.files.installed_files import installed_config
@@ -129,3 +131,35 @@ def test_a_bad_rig_file_starts_nothing_and_is_one_line(tmp_path):
         (line,) = [line for line in rig.output().splitlines() if 'ERROR' in line]
         assert f'{path}: joint 1: design_file is' in line
         assert 'process started' not in rig.output()
+
+
+def test_an_arm_runs_in_a_rig_beside_a_unit(tmp_path):
+    """Its estimator hears its driver, its joints have the names that its description has."""
+    config = installed_config('arm.yaml').parent
+    rig_file = tmp_path / 'rig.yaml'
+    rig_file.write_text(
+        f'- namespace: snake\n  design_file: {config}/arm.yaml\n  simulation: {{rate: 50}}\n'
+        f'- namespace: gripper\n  design_file: {config}/preliminary_design.yaml\n'
+    )
+    heard = []
+    with (
+        spinning(lambda context: Audience(context, ['gripper'])) as audience,
+        Program.running_command([*LAUNCH, f'rig_file:={rig_file}', 'simulate:=true']) as rig,
+    ):
+        topic = 'snake/arm_estimator/joint_states'
+        audience.create_subscription(JointState, topic, heard.append, 1000)
+
+        def has_both():
+            assert rig.process.poll() is None, rig.output()
+            return heard and audience.estimates['gripper']
+
+        wait_for('arm and unit', has_both)
+        assert heard[0].header.frame_id == 'snake/base'
+        arm, _ = load_rig(rig_file)
+        named = {
+            joint.get('name') for joint in ElementTree.fromstring(arm.description()).iter('joint')
+        }
+        assert set(heard[0].name) == named - {'snake/tip_end'}
+        assert rig.end(signal.SIGINT) == 0
+        assert rig.output().count('process has finished cleanly') == 4
+        assert 'does not have' not in rig.output()

@@ -80,7 +80,7 @@ class ArmClient(Node):
             lambda message: self.statuses.extend(message.status),
             QoSProfile(depth=1000),
         )
-        self._services = {
+        self._asked = {
             name: self.create_client(kind, f'arm_estimator/{name}')
             for name, kind in self.SERVICES.items()
         }
@@ -109,7 +109,7 @@ class ArmClient(Node):
                 self.tensions.get_subscription_count() > 0
                 and self.measured.get_subscription_count() > 0
                 and all(of.get_publisher_count() > 0 for of in self._answered)
-                and all(of.service_is_ready() for of in self._services.values())
+                and all(of.service_is_ready() for of in self._asked.values())
             )
 
         wait_for('the estimator of the arm', found)
@@ -170,7 +170,7 @@ class ArmClient(Node):
 
     def call(self, name: str, request: Any) -> Any:
         """Call a service; again while no answer comes, for one may be lost at first."""
-        client = self._services[name]
+        client = self._asked[name]
         for _ in range(int(TIME_LIMIT)):
             future = client.call_async(request)
             with suppress(TimeoutError):

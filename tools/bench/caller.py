@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from rclpy.context import Context
@@ -28,17 +28,20 @@ class Answer(NamedTuple):
     topic: str
     """In its private namespace"""
     message_type: type
-    field: str
-    """The number in it that is checked"""
+    number: Callable[[Any], float]
+    """Returns what of it is checked"""
+
+    node: str = 'estimator'
+    """That publishes it"""
 
 
 ANSWERS = (
-    Answer('bend_angle', Float64, 'data'),
-    Answer('joint_pressure', Float64, 'data'),
+    Answer('bend_angle', Float64, lambda message: message.data),
+    Answer('joint_pressure', Float64, lambda message: message.data),
 )
 """What is listened to as a rule"""
 
-ESTIMATE = Answer('estimate', Estimate, 'bend_angle')
+ESTIMATE = Answer('estimate', Estimate, lambda message: message.bend_angle)
 
 LOAD = 4000
 """Messages at every rate that is tried: several times what the queue of a program holds"""
@@ -81,6 +84,22 @@ class Callee(NamedTuple):
         angle, pressure = self.answer(tension_l, tension_s)
         return (angle, pressure, angle) if self.estimates else (angle, pressure)
 
+    def talk(self) -> Talk:
+        """Return what is sent, and what should come of it."""
+        pairs = noisy_pairs(LOAD).tolist()
+        messages = [Float64MultiArray(data=pair) for pair in pairs]
+        return Talk(self.answers, messages, np.array([self.expected(*pair) for pair in pairs]))
+
+
+class Talk(NamedTuple):
+    """What is sent to programs, and what should come of it."""
+
+    answers: Sequence[Answer]
+    messages: Sequence[Any]
+    """`LOAD` of one type, on ``tensions``"""
+    expected: np.ndarray
+    """What each answer to each message should say; NaN: whatever"""
+
 
 @dataclass(frozen=True)
 class Stream:
@@ -114,38 +133,41 @@ class HighestRate(NamedTuple):
 
 
 class Caller(Node):
-    """Sends tensions to one program, which has a namespace of its own, and takes its answers."""
+    """Sends tensions to programs that have a namespace of their own, and takes their answers.
 
-    def __init__(self, callee: Callee, program: Program, context: Context) -> None:
+    Mostly it is one; several are there for the time that they take together.
+    """
+
+    def __init__(
+        self, name: str, talk: Talk, programs: Sequence[Program], context: Context
+    ) -> None:
         super().__init__(
             *('caller',),
-            namespace=callee.name,
+            namespace=name,
             context=context,
             start_parameter_services=False,
             enable_rosout=False,
         )
-        self.name = callee.name
-        self._program = program
+        self.name = name
+        self._programs = programs
         self._executor = SingleThreadedExecutor(context=context)
         self._executor.add_node(self)
-        self._came: list[list[tuple[float, float]]] = [[] for _ in callee.answers]  # time, answer
+        self._came: list[list[tuple[float, float]]] = [[] for _ in talk.answers]  # time, answer
         self._tensions = self.create_publisher(
-            Float64MultiArray,
+            type(talk.messages[0]),
             'tensions',
             QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT),
         )
-        for (topic, message_type, field), came in zip(callee.answers, self._came, strict=True):
+        for answer, came in zip(talk.answers, self._came, strict=True):
             self.create_subscription(
-                message_type,
-                f'estimator/{topic}',
-                lambda message, came=came, field=field: came.append(
-                    (time.perf_counter(), getattr(message, field))
+                answer.message_type,
+                f'{answer.node}/{answer.topic}',
+                lambda message, came=came, number=answer.number: came.append(
+                    (time.perf_counter(), number(message))
                 ),
                 2 * LOAD,
             )
-        pairs = noisy_pairs(LOAD).tolist()
-        self._messages = [Float64MultiArray(data=pair) for pair in pairs]
-        self._expected = np.array([callee.expected(*pair) for pair in pairs])
+        self._messages, self._expected = talk.messages, talk.expected
 
     def connect(self) -> None:
         """Wait until messages pass both ways, which is known of one end only."""
@@ -156,11 +178,11 @@ class Caller(Node):
             if all(self._came):
                 break
         else:
-            raise RuntimeError(f'{self.name} does not answer: {self._program.output()}')
+            raise RuntimeError(f'{self.name} does not answer: {self._output()}')
 
     def _is_found(self) -> bool:
         self._spin_until(time.perf_counter() + 0.05)
-        return self._tensions.get_subscription_count() > 0 and all(
+        return self._tensions.get_subscription_count() >= len(self._programs) and all(
             subscription.get_publisher_count() > 0 for subscription in self.subscriptions
         )
 
@@ -178,7 +200,7 @@ class Caller(Node):
         """
         for came in self._came:
             came.clear()
-        cpu = self._program.cpu_time()
+        cpu = self._cpu_time()
         sent = []
         begin = time.perf_counter()
         for index in range(count):
@@ -187,7 +209,7 @@ class Caller(Node):
             self._tensions.publish(self._messages[index])
         self._take_what_comes(count)
         self._check_that_it_lives()
-        cpu = self._program.cpu_time() - cpu
+        cpu = self._cpu_time() - cpu
         lost = sum(max(count - len(came), 0) for came in self._came)
         whole = all(len(came) == count for came in self._came)
         # Where one is lost or late, it is not known which.
@@ -213,9 +235,16 @@ class Caller(Node):
         return came[:, :, 0].max(axis=0) - sent
 
     def _check_that_it_lives(self) -> None:
-        code = self._program.process.poll()
-        if code is not None:
-            raise RuntimeError(f'{self.name} has ended with {code}: {self._program.output()}')
+        for program in self._programs:
+            code = program.process.poll()
+            if code is not None:
+                raise RuntimeError(f'{self.name} has ended with {code}: {program.output()}')
+
+    def _cpu_time(self) -> float:
+        return sum(program.cpu_time() for program in self._programs)
+
+    def _output(self) -> str:
+        return ''.join(program.output() for program in self._programs)
 
     def highest_rate(self, guess: float) -> HighestRate:
         """Find the highest rate at which the program loses nothing; begin at a guess in Hz."""
@@ -273,19 +302,32 @@ class Caller(Node):
         return came
 
     def end(self) -> str:
-        """End the program and return what it has written."""
-        self._program.end()
-        return self._program.output()
+        """End the programs and return what they have written."""
+        for program in self._programs:
+            program.end()
+        return self._output()
 
 
 @contextmanager
 def called(callee: Callee) -> Iterator[Caller]:
     """Run a program and connect a caller with it."""
+    with calling(callee.name, [callee.command], callee.talk()) as caller:
+        yield caller
+
+
+@contextmanager
+def calling(name: str, commands: Sequence[Sequence[str | Path]], talk: Talk) -> Iterator[Caller]:
+    """Run programs in a namespace and connect a caller with them."""
     context = Context()
     context.init()
-    command = [*callee.command, '--ros-args', '-r', f'__ns:=/{callee.name}']
-    with Program.running_command(command) as program:
-        caller = Caller(callee, program, context)
+    with ExitStack() as stack:
+        programs = [
+            stack.enter_context(
+                Program.running_command([*command, '--ros-args', '-r', f'__ns:=/{name}'])
+            )
+            for command in commands
+        ]
+        caller = Caller(name, talk, programs, context)
         caller.connect()
         try:
             yield caller

@@ -61,7 +61,7 @@ def fill_arm_estimate(message: ArmEstimate, estimate: ArmAnswer, header: Header)
     message.regimes = [regime.value for regime in estimate.regimes]
     message.bend_angles = _angles(estimate)
     message.bend_angle_stddevs = _numbers(estimate.bend_angle_stddevs)
-    intervals = estimate.intervals or [(math.nan, math.nan)] * count
+    intervals = [of or (math.nan, math.nan) for of in estimate.intervals or [None] * count]
     message.bend_angle_lows = [low for low, _ in intervals]
     message.bend_angle_highs = [high for _, high in intervals]
     message.angles_assured = list(estimate.angles_assured)

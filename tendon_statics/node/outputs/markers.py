@@ -33,34 +33,23 @@ def unit_markers(estimate: Estimate, header: Header) -> MarkerArray:
     along = math.copysign(1.0, design.com_distance)
     colour = red_green_blue(REGIME_COLOURS[estimate.regime])
     kinds = (UNIT, BAND, LABEL, GRAVITY, TIP_FORCE)
-    markers = [_marker(kind, header) for kind in kinds]
+    markers = [new_marker(kind, header) for kind in kinds]
     unit, band, label, gravity, tip_force = markers
 
     if estimate.bend_angle is None:
         unit.action = Marker.DELETE
     else:
         end = _on_arc(along * length, estimate.bend_angle)
-        _make_arrow(unit, Point(), end, 0.5 * design.ball_radius, colour)
+        make_arrow(unit, Point(), end, 0.5 * design.ball_radius, colour)
 
-    if not intervals:
-        band.action = Marker.DELETE
-    else:
-        band.type = Marker.TRIANGLE_LIST
-        band.scale.x = band.scale.y = band.scale.z = 1.0
-        band.color = _colour(colour, 0.35)
-        band.points = [
-            point for interval in intervals for point in _fan(along * length, *interval)
-        ]
-
-    label.type = Marker.TEXT_VIEW_FACING
-    label.text = estimate.regime.value
-    label.pose.position.z = 1.3 * along * length
-    label.scale.z = 0.5 * design.ball_radius
-    label.color = _colour(colour, 1.0)
+    points = [point for interval in intervals for point in fan(along * length, *interval)]
+    make_band(band, points, colour)
+    place = Point(z=1.3 * along * length)
+    make_label(label, estimate.regime.value, place, 0.5 * design.ball_radius, colour)
 
     x, y, z = (0.7 * length * part for part in load.gravity_direction)
     beside = -2.0 * design.ball_radius
-    _make_arrow(
+    make_arrow(
         gravity,
         Point(y=beside),
         Point(x=x, y=beside + y, z=z),
@@ -74,34 +63,58 @@ def unit_markers(estimate: Estimate, header: Header) -> MarkerArray:
         x, z = (0.7 * length * part / force for part in load.tip_force)
         tip = _on_arc(load.tip_distance, estimate.bend_angle)
         start = Point(x=tip.x - x, z=tip.z - z)
-        _make_arrow(tip_force, start, tip, 0.2 * design.ball_radius, FORCE_COLOUR)
+        make_arrow(tip_force, start, tip, 0.2 * design.ball_radius, FORCE_COLOUR)
     return MarkerArray(markers=markers)
 
 
 def no_markers(header: Header) -> MarkerArray:
     """Take all away."""
-    marker = _marker(UNIT, header)
+    marker = new_marker(UNIT, header)
     marker.action = Marker.DELETEALL
     return MarkerArray(markers=[marker])
 
 
-def _marker(kind: int, header: Header) -> Marker:
-    marker = Marker(header=header, ns=NAMESPACE, id=kind, action=Marker.ADD)
+def new_marker(kind: int, header: Header, namespace: str = NAMESPACE) -> Marker:
+    """Return a marker that is to be drawn."""
+    marker = Marker(header=header, ns=namespace, id=kind, action=Marker.ADD)
     marker.pose.orientation.w = 1.0
     return marker
 
 
-def _make_arrow(
+def make_arrow(
     marker: Marker, start: Point, end: Point, width: float, rgb: tuple[float, float, float]
 ) -> None:
+    """Make a marker an arrow, of a width in m."""
     marker.type = Marker.ARROW
     marker.points = [start, end]
     marker.scale.x, marker.scale.y = width, 2.0 * width
     marker.color = _colour(rgb, 1.0)
 
 
-def _fan(radius: float, low: float, high: float) -> list[Point]:
-    """Triangles of a sector, both ends of which are exact."""
+def make_band(marker: Marker, points: list[Point], rgb: tuple[float, float, float]) -> None:
+    """Make a marker the band of some triangles, which lets through; of none it is taken away."""
+    if not points:
+        marker.action = Marker.DELETE
+        return
+    marker.type = Marker.TRIANGLE_LIST
+    marker.scale.x = marker.scale.y = marker.scale.z = 1.0
+    marker.color = _colour(rgb, 0.35)
+    marker.points = points
+
+
+def make_label(
+    marker: Marker, text: str, place: Point, height: float, rgb: tuple[float, float, float]
+) -> None:
+    """Make a marker a text that is so many m high."""
+    marker.type = Marker.TEXT_VIEW_FACING
+    marker.text = text
+    marker.pose.position = place
+    marker.scale.z = height
+    marker.color = _colour(rgb, 1.0)
+
+
+def fan(radius: float, low: float, high: float) -> list[Point]:
+    """Triangles of a sector about the origin, both ends of which are exact; angles in rad."""
     steps = max(1, math.ceil((high - low) / ARC_STEP))
     arc = [_on_arc(radius, low + (high - low) * step / steps) for step in range(steps + 1)]
     return [point for pair in pairwise(arc) for point in (Point(), *pair)]

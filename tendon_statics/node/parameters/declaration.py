@@ -111,6 +111,6 @@ def _descriptor(parameter: Parameter, *, with_range: bool) -> ParameterDescripto
                 kind['floating_point_range'] = [FloatingPointRange(**limits)]
     else:
         kind['additional_constraints'] = parameter.allowed
-    if not parameter.is_fixed or isinstance(parameter, NumberParameter):
+    if not parameter.is_fixed or isinstance(parameter, (NumberParameter, ListParameter)):
         kind['dynamic_typing'] = True  # So that our own check says what is wrong.
     return ParameterDescriptor(description=description, **kind)

@@ -1,6 +1,7 @@
 """Units in series: an arm, where its joints are, which of them slip, what pushes."""
 
 from .arm import Arm, ArmUnit, Cable
+from .filter import ArmFilter, ArmFilterState
 from .inverse import arm_tensions_for
 from .joints import arm_margins
 from .order import JointSlip, arm_slip_order
@@ -11,6 +12,8 @@ from .tracker import ArmTracker
 
 __all__ = [
     'Arm',
+    'ArmFilter',
+    'ArmFilterState',
     'ArmState',
     'ArmTipForce',
     'ArmTracker',

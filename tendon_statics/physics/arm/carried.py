@@ -106,6 +106,14 @@ class Carried:
         return max(dead.largest_pull(reach), NEGLIGIBLE_PULL * float(dead.size))
 
 
+def at_tip(arm: Arm, load: Load) -> Load:
+    """Return the load of an arm as that of its last unit, with the distance of the tip's force."""
+    length = arm.units[-1].length
+    if load.tip_distance == length or not any(load.tip_force):
+        return load
+    return Load(load.gravity_direction, load.tip_force, length)
+
+
 def frozen_loads(dead: list[DeadLoad], angles: list[float]) -> list[DeadLoad]:
     """Return the dead load of each joint in its own frame, that of the unit before it.
 

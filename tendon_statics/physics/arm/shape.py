@@ -5,7 +5,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .arm import Arm
+
+Floats = NDArray[np.float64]
 
 
 class TipPose(NamedTuple):
@@ -38,6 +43,19 @@ def joint_centres(arm: Arm, bend_angles: tuple[float, ...]) -> list[tuple[float,
 def tip_pose(arm: Arm, bend_angles: tuple[float, ...]) -> TipPose:
     """Return where the tip is."""
     return TipPose(*joint_centres(arm, bend_angles)[-1], sum(bend_angles))
+
+
+def tip_poses(arm: Arm, bend_angles: Floats) -> Floats:
+    """Return where the tips of many arms are: x, z and tilt, shape ``(3, arms)``.
+
+    Parameters
+    ----------
+    bend_angles : ndarray
+        In rad, shape ``(arms, joints)``.
+    """
+    tilts = np.cumsum(bend_angles, axis=1)
+    lengths = np.array([unit.length for unit in arm.units])
+    return np.array([np.sin(tilts) @ lengths, np.cos(tilts) @ lengths, tilts[:, -1]])
 
 
 def tip_by_angles(arm: Arm, bend_angles: tuple[float, ...]) -> list[TipPose]:

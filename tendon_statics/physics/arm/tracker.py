@@ -17,7 +17,7 @@ from ..tensions import Tensions
 from ..tracker import StickSlipTracker
 from .arm import Arm
 from .cables import AtJoints, crossings, pair_at, slack_joint, transmitted
-from .carried import Carried
+from .carried import Carried, at_tip
 from .excess import Excess
 from .flow import settle
 from .joints import Driven, check_bend_angles, check_joint, check_joint_angle, drive
@@ -239,9 +239,7 @@ class ArmTracker:
 
     def _single_update(self, at_base: list[float], pair: Tensions, load: Load) -> ArmState:
         assert self._single
-        length = self._arm.units[0].length
-        if load.tip_distance != length and any(load.tip_force):
-            load = Load(load.gravity_direction, load.tip_force, length)
+        load = at_tip(self._arm, load)
         found = self._single.update(*pair, load)
         assert found.bend_angle is not None
         if found.bend_angle != self._angles[0]:

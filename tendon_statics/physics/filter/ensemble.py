@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,11 +25,62 @@ member, so that these enclose 38 of 40: 95 %"""
 CAUTION = 1.25
 """By how much the standard errors are taken for larger, since windows also are a little wrong"""
 
-_TOWARDS_S = np.array([-1.0, 1.0])[:, None, None]
-"""Of the errors of T_l and T_s, so that a member of a higher score is driven more towards s"""
+SIDES = np.array([-1.0, 1.0])
+"""Of T_l and T_s, so that a member of a higher score is driven more towards s"""
 
 
-class Ensemble:
+class TensionErrors:
+    """By how much the members' tensions differ from smoothed ones: constants of each.
+
+    Parameters
+    ----------
+    scores : ndarray
+        Standard errors of noise by which each differs, shape ``(tensions, members)``.
+    sum_scores : ndarray
+        Those of a sum of tensions, shape ``(members,)``.
+    biases : ndarray
+        Constant errors in N, shape ``(tensions, members)``.
+    """
+
+    def __init__(self, scores: Floats, sum_scores: Floats, biases: Floats) -> None:
+        self._scores, self._biases = scores[:, None], biases[:, None]
+        self.sum_scores = sum_scores
+
+    def tensions(self, estimate: Estimate) -> Floats:
+        """Return what smoothed tensions are for each member, in N.
+
+        Parameters
+        ----------
+        estimate : Estimate
+            Of each tension in N, shape ``(tensions, samples)``.
+
+        Returns
+        -------
+        ndarray
+            Shape ``(tensions, samples, members)``.
+        """
+        tensions: Floats = estimate.value[:, :, None] + estimate.error[:, :, None] * self._scores
+        tensions -= self._biases
+        return tensions
+
+    def pressing(self, tensions: Floats, error: Floats) -> Floats:
+        """Return the two tensions with which members press a joint, in N.
+
+        The errors by which members differ in their drive leave the sum of the tensions alone. Its
+        own error hardly moves a unit, but is most of that of the pressure.
+
+        Parameters
+        ----------
+        tensions : ndarray
+            Of members at one sample, shape ``(2, members)``.
+        error : ndarray
+            Standard errors in N of all tensions that press the joint.
+        """
+        pressing: Floats = tensions + 0.5 * np.hypot.reduce(error) * self.sum_scores
+        return pressing
+
+
+class Ensemble(TensionErrors):
     """What tells the members of a filter apart: constants of each.
 
     A member's errors of the smoothed tensions, its load cells' biases and its design differ from
@@ -56,10 +107,12 @@ class Ensemble:
     ) -> None:
         parameters = () if uncertainty is None else uncertainty.parameters
         normals = draw_normals(MEMBERS, 4 + len(parameters), seed)
-        self._scores = CAUTION * np.sort(normals[0])
-        self._sum_scores = CAUTION * normals[3]
+        super().__init__(
+            SIDES[:, None] * (CAUTION * np.sort(normals[0])),
+            CAUTION * normals[3],
+            bias_stddev * normals[1:3],
+        )
         self._spread = normals[0]
-        self._biases = bias_stddev * normals[1:3, None]
         self.units: JointDesign | StackedDesign = design
         """The design of all members, or one of each"""
         if uncertainty is not None and parameters:
@@ -85,40 +138,6 @@ class Ensemble:
             *(np.array(np.broadcast_arrays(*part)).reshape(len(loads), -1) for part in parts)
         )
 
-    def tensions(self, estimate: Estimate) -> Floats:
-        """Return what smoothed tensions are for each member, in N.
-
-        Parameters
-        ----------
-        estimate : Estimate
-            Of T_l and T_s in N, shape ``(2, pairs)``.
-
-        Returns
-        -------
-        ndarray
-            Shape ``(2, pairs, members)``.
-        """
-        errors = estimate.error[:, :, None] * (_TOWARDS_S * self._scores)
-        tensions: Floats = estimate.value[:, :, None] + errors
-        tensions -= self._biases
-        return tensions
-
-    def pressing(self, tensions: Floats, error: Floats) -> Floats:
-        """Return the tensions with which members press their joints, in N.
-
-        The errors by which members differ in their drive leave T_l + T_s alone. Its own error
-        hardly moves a unit, but is most of that of the pressure.
-
-        Parameters
-        ----------
-        tensions : ndarray
-            Of members at one pair, shape ``(2, members)``.
-        error : ndarray
-            Standard errors of T_l and T_s in N.
-        """
-        pressing: Floats = tensions + 0.5 * np.hypot(*error) * self._sum_scores
-        return pressing
-
     def slips(self, tensions: Floats, loads: list[Load]) -> Slip:
         """Return slip functions to the side of the last pair's stronger cable.
 
@@ -132,3 +151,30 @@ class Ensemble:
         middle = tensions.shape[-1] // 2
         side = 1.0 if tensions[1, -1, middle] >= tensions[0, -1, middle] else -1.0
         return slips_of(self.units, self.dead_load(loads), tensions, side)
+
+
+class MemberSlips(NamedTuple):
+    """The slip functions of the members at one pair of smoothed tensions."""
+
+    ensemble: Ensemble
+    load: Load
+    tensions: Floats
+    """Of the members in N, shape ``(2, members)``"""
+    error: Floats
+    """Standard errors of T_l and T_s in N"""
+
+    @property
+    def units(self) -> JointDesign | StackedDesign:
+        """The design of all members, or one of each."""
+        return self.ensemble.units
+
+    def driving(self) -> Slip:
+        """Return them at the tensions that drive the members."""
+        return self._at(self.tensions)
+
+    def pressing(self) -> Slip:
+        """Return them at the tensions that press their joints, whose sum has its own error."""
+        return self._at(self.ensemble.pressing(self.tensions, self.error))
+
+    def _at(self, tensions: Floats) -> Slip:
+        return self.ensemble.slips(tensions[:, None], [self.load]).part(0)

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..load import Load
-from ..tensions import Tensions
 from .smoothing import REACH, Estimate, SampleBuffer, Windows
 
 PATH = (0.7, 0.45, 0.28, 0.16, 0.08, 0.03, 0.0)
@@ -21,7 +20,7 @@ KEPT_WINDOWS = 64
 
 @dataclass(slots=True)
 class Sample:
-    """One pair of tensions that is not settled."""
+    """When and under what load the tensions were that are not settled."""
 
     time: float
     load: Load
@@ -34,26 +33,28 @@ class RecentSamples:
 
     Parameters
     ----------
+    signals : int
+        How many tensions a sample has.
     stddev : float
         Standard deviation of the noise of a tension in N.
     """
 
-    def __init__(self, stddev: float) -> None:
-        self._stddev = stddev
+    def __init__(self, signals: int, stddev: float) -> None:
+        self._signals, self._stddev = signals, stddev
         self._windows: dict[tuple[int, tuple[int, ...]], Windows] = {}
         self.forget()
 
     def forget(self) -> None:
         """Forget all samples."""
         self.waiting: deque[Sample] = deque()
-        self._buffer = SampleBuffer(2)
+        self._buffer = SampleBuffer(self._signals)
 
     @property
     def time(self) -> float | None:
         """Of the newest sample in s."""
         return self.waiting[-1].time if self.waiting else None
 
-    def append(self, tensions: Tensions, sample: Sample) -> None:
+    def append(self, tensions: Sequence[float], sample: Sample) -> None:
         """Append a sample that is newer than all."""
         self.waiting.append(sample)
         self._buffer.append(tensions, REACH + len(self.waiting))
@@ -81,7 +82,7 @@ class RecentSamples:
             Ages, as how many samples came after each.
         """
         newest = len(self.waiting) - 1
-        newer = newest - max(settled, measured)
+        newer = max(newest - max(settled, measured), 0)
         return [
             *(newest - place for place in range(settled)),
             *sorted({round(share * newer) for share in PATH}, reverse=True),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import math
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,11 +13,26 @@ from numpy.typing import NDArray
 from ..design import JointDesign
 from ..load import Load
 from ..regime import Regime
+from ..slip import Slip
+from ..stacked_design import StackedDesign
 from ..tensions import Tensions
-from .ensemble import Ensemble
 from .members import Step
 
 Floats = NDArray[np.float64]
+
+
+class Slips(Protocol):
+    """The slip functions of the members of a joint, at the tensions of one sample."""
+
+    @property
+    def units(self) -> JointDesign | StackedDesign:
+        """The design of all members, or one of each."""
+
+    def driving(self) -> Slip:
+        """Return them at the tensions that drive the members."""
+
+    def pressing(self) -> Slip:
+        """Return them at the tensions that press their joints, whose sum has its own error."""
 
 
 class FilterState:
@@ -38,6 +54,8 @@ class FilterState:
         False once a cable has been slack, until a stop, a measurement or a reset.
     consistency : float
         As `StickSlipFilter.consistency` then.
+    slips : Slips
+        The slip functions of the members; None while a cable is slack.
     """
 
     def __init__(
@@ -49,9 +67,7 @@ class FilterState:
         *,
         angles: Floats,
         moved: NDArray[np.bool_],
-        ensemble: Ensemble | None,
-        member_tensions: Floats,
-        tension_errors: Floats,
+        slips: Slips | None,
         provisional: bool,
         assured: bool,
         consistency: float = math.nan,
@@ -65,9 +81,7 @@ class FilterState:
         self.consistency = consistency
         self._angles = angles
         self._moved = moved
-        self._ensemble = ensemble
-        self._member_tensions = member_tensions
-        self._tension_errors = tension_errors
+        self.slips = slips
 
     @classmethod
     def slack(
@@ -79,20 +93,29 @@ class FilterState:
             *(design, load, time, tensions),
             angles=nobody,
             moved=nobody > 0.0,
-            ensemble=None,
-            member_tensions=np.empty((2, 0)),
-            tension_errors=np.zeros(2),
+            slips=None,
             provisional=True,
             assured=False,
         )
 
-    def measured(self, angles: Floats) -> FilterState:
-        """The same with the angles of the members that a measurement has told, to be kept."""
+    def measured(
+        self, angles: Floats, slips: Slips | None = None, *, assured: bool = True
+    ) -> FilterState:
+        """The same with the angles of the members that a measurement has told, to be kept.
+
+        Parameters
+        ----------
+        slips : Slips, optional
+            Where these have changed with it.
+        assured : bool
+            Whether it is known where the unit is.
+        """
         found = copy.copy(self)
         for name in ('members', '_step', 'regime_probabilities', '_pressures'):
             found.__dict__.pop(name, None)
         found._angles = angles
-        found.provisional, found.assured = False, True
+        found.slips = slips or self.slips
+        found.provisional, found.assured = False, assured
         return found
 
     @property
@@ -129,29 +152,18 @@ class FilterState:
         ValueError
             If the level is not between 0 and 1.
         """
-        if not 0.0 < level < 1.0:
-            raise ValueError(f'level is {level!r}, allowed is between 0 and 1')
-        if not len(self.members):
-            return None
-        # The truth is as likely as any of n members to be the i-th of these n + 1.
-        outside = max(int(0.5 * (1.0 - level) * (len(self.members) + 1) + 1e-9), 1)
-        return float(self.members[outside - 1]), float(self.members[-outside])
+        return interval_of(self.members, level)
 
     @cached_property
     def _step(self) -> Step:
-        return self._step_of(self._member_tensions)
-
-    def _step_of(self, tensions: Floats) -> Step:
-        """What tensions of the members mean where they are."""
-        assert self._ensemble is not None
-        slips = self._ensemble.slips(tensions[:, None], [self.load])
-        return Step(slips.part(0), self._angles, self._ensemble.stop)
+        assert self.slips is not None
+        return Step(self.slips.driving(), self._angles, self.slips.units.max_bend_angle)
 
     @cached_property
     def regime_probabilities(self) -> dict[Regime, float]:
         """Probability of each regime; they add up to 1."""
         found = dict.fromkeys(Regime, 0.0)
-        if self._ensemble is None:
+        if self.slips is None:
             found[Regime.SLACK] = 1.0
             return found
         pressed = self._step.pressed
@@ -168,18 +180,18 @@ class FilterState:
     @cached_property
     def _pressures(self) -> Floats:
         """Pressure of each member in Pa, NaN where the model does not stand behind it."""
-        if self._ensemble is None:
+        if self.slips is None:
             return np.empty(0)
-        pressing = self._ensemble.pressing(self._member_tensions, self._tension_errors)
+        units = self.slips.units
         with np.errstate(all='ignore'):
-            step = self._step_of(pressing)
+            step = Step(self.slips.pressing(), self._angles, units.max_bend_angle)
             slips, probe = step.slips, step.probe
             state = probe[8]
             friction = np.minimum(probe[5], state[0])
             normal = slips.law.normal(state, friction)
             *_, consistent = slips.law.contact(state, friction, normal)
             force = np.where(consistent, slips.total * normal, np.nan)
-        pressures: Floats = force / self._ensemble.units.contact_area
+        pressures: Floats = force / units.contact_area
         return pressures
 
     @property
@@ -193,3 +205,25 @@ class FilterState:
         """Standard deviation of the pressure in Pa."""
         known = self._pressures[np.isfinite(self._pressures)]
         return float(np.std(known)) if 2 * len(known) > len(self._pressures) else None
+
+
+def interval_of(members: Floats, level: float) -> tuple[float, float] | None:
+    """Return the interval that holds a number with a probability; None without members.
+
+    Parameters
+    ----------
+    members : ndarray
+        What the number is to each member, ascending.
+
+    Raises
+    ------
+    ValueError
+        If the level is not between 0 and 1.
+    """
+    if not 0.0 < level < 1.0:
+        raise ValueError(f'level is {level!r}, allowed is between 0 and 1')
+    if not len(members):
+        return None
+    # The truth is as likely as any of n members to be the i-th of these n + 1.
+    outside = max(int(0.5 * (1.0 - level) * (len(members) + 1) + 1e-9), 1)
+    return float(members[outside - 1]), float(members[-outside])

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import bisect
-import math
-from collections import deque
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,26 +15,18 @@ from ..load import UPRIGHT, Load
 from ..regime import Regime
 from ..tensions import Tensions, check_tensions, taut_slip
 from .consistency import Consistency
-from .ensemble import Ensemble
+from .ensemble import Ensemble, MemberSlips
+from .lagged import SURE, LaggedFilter, check_least, check_stddev, drawn_to
 from .members import follow
-from .recent import RecentSamples, Sample
+from .recent import Sample
 from .scores import Boundary, Reading
 from .smoothing import Estimate
 from .state import FilterState
 
 Floats = NDArray[np.float64]
 
-HISTORY = 5000
-"""Committed states that are kept"""
 
-SURE = 0.99
-"""Probability of a stop from which on the angle is assured by it"""
-
-LOST = 6.0
-"""Deviations of a measured angle from all members above which they are where it says"""
-
-
-class StickSlipFilter:
+class StickSlipFilter(LaggedFilter[FilterState, Floats]):
     """Follows a unit as `StickSlipTracker` does, where each tension is noisy.
 
     A unit slips at the largest drive so far, and the largest of many noisy readings is always too
@@ -85,19 +75,11 @@ class StickSlipFilter:
         lag: float = 0.15,
         seed: int = 0,
     ) -> None:
-        for name, value, least in (
-            ('bend_angle_stddev', bend_angle_stddev, 0.0),
-            ('tension_stddev', tension_stddev, 1e-12),
-            ('tension_bias_stddev', tension_bias_stddev, 0.0),
-            ('lag', lag, 0.0),
-        ):
-            if not least <= value < math.inf:
-                raise ValueError(f'{name} is {value!r}, allowed is {least:g} or more')
+        check_least('bend_angle_stddev', bend_angle_stddev, 0.0)
+        super().__init__(2, tension_stddev, tension_bias_stddev, lag)
         self._design = design
-        self._lag = lag
         self._boundary = Boundary(design, tension_bias_stddev, design_covariance)
         self._ensemble = Ensemble(design, tension_bias_stddev, design_covariance, seed)
-        self._samples = RecentSamples(tension_stddev)
         self.reset(bend_angle, bend_angle_stddev)
 
     def reset(self, bend_angle: float, stddev: float = 0.0) -> None:
@@ -112,8 +94,7 @@ class StickSlipFilter:
         self._committed = self._newest = self._ensemble.angles(angle, stddev)
         self._assured = True
         self._consistency = Consistency(self._boundary)
-        self._history: deque[FilterState] = deque(maxlen=HISTORY)
-        self._forget_samples()
+        self._begin_history()
 
     def doubt(self) -> None:
         """Take it that the unit may have moved unseen, say while no tensions came.
@@ -151,63 +132,25 @@ class StickSlipFilter:
             If the time is not later than that before. What was known stays in both cases.
         """
         tensions = check_tensions(tension_l, tension_s)
-        last = self._samples.time
-        if last is not None and not time > last:
-            raise ValueError(f'time is {time!r} s, which is not after {last!r} s')
+        self._check_time(time)
         if tensions.slack_cable:
             self.doubt()
             return FilterState.slack(self._design, load, time, tensions)
         taut_slip(self._design, tensions, load)
-        if last is not None and time - last > self._lag:
-            # What was before cannot tell what the tensions are now.
-            self._committed = self._newest
-            self._forget_samples()
-        self._samples.append(tensions, Sample(time, load))
-        return self._follow(tensions, self._samples.settled(time - self._lag))
+        return self._take(tensions, Sample(time, load))
 
-    def _follow(self, tensions: Tensions, settled: int) -> FilterState:
-        """Commit the samples that are settled, and follow the newer ones from there."""
-        samples, ensemble = self._samples.waiting, self._ensemble
-        ages = self._samples.path(settled, self._measured)
-        estimate = self._samples.smoothed(ages)
-        for row in range(settled):
-            self._judge(samples[row], Estimate(*(part[:, row] for part in estimate)))
-        # Those up to a measured angle are in what it was committed to.
-        first = min(settled, self._measured)
-        loads = [samples[-1 - age].load for age in ages[first:]]
-        paths = ensemble.tensions(Estimate(*(part[:, first:] for part in estimate)))
-        slips = ensemble.slips(paths, loads)
-        path = follow(slips, self._committed, ensemble.stop)
-        committed = settled - first
-        for row in range(committed):
-            self._history.append(
-                self._state(
-                    samples[first + row],
-                    Tensions(*estimate.value[:, first + row].tolist()),
-                    *(path[row : row + 2], paths[:, row].copy()),
-                    estimate.error[:, first + row].copy(),
-                    provisional=False,
-                )
-            )
-        self._committed, self._newest = path[committed], path[-1]
-        state = self._state(
-            *(samples[-1], tensions, path[-2:], paths[:, -1].copy()),
-            estimate.error[:, -1].copy(),
-            provisional=True,
-        )
-        for _ in range(settled):
-            samples.popleft()
-        self._measured -= first
-        if not self._assured and state.regime_probabilities[Regime.DRIVEN_TO_STOP] > SURE:
-            self._assured = state.assured = True
-        self._last = state
-        return state
+    def _followed(
+        self, estimate: Estimate, loads: list[Load], start: Floats
+    ) -> tuple[Floats, Sequence[Floats]]:
+        paths = self._ensemble.tensions(estimate)
+        slips = self._ensemble.slips(paths, loads)
+        return paths, list(follow(slips, start, self._ensemble.stop))
 
     def _state(
         self,
         sample: Sample,
-        tensions: Tensions,
-        path: Floats,
+        tensions: Sequence[float],
+        path: Sequence[Floats],
         member_tensions: Floats,
         tension_errors: Floats,
         *,
@@ -215,16 +158,18 @@ class StickSlipFilter:
     ) -> FilterState:
         """The state at a sample; `path` is where the members were before it and are at it."""
         return FilterState(
-            *(self._design, sample.load, sample.time, tensions),
+            *(self._design, sample.load, sample.time, Tensions(*tensions)),
             angles=path[1].copy(),
             moved=path[1] != path[0],
-            ensemble=self._ensemble,
-            member_tensions=member_tensions,
-            tension_errors=tension_errors,
+            slips=MemberSlips(self._ensemble, sample.load, member_tensions, tension_errors),
             provisional=provisional,
             assured=self._assured,
             consistency=self.consistency,
         )
+
+    def _take_for_sure(self, state: FilterState) -> None:
+        if not self._assured and state.regime_probabilities[Regime.DRIVEN_TO_STOP] > SURE:
+            self._assured = state.assured = True
 
     def measure(self, bend_angle: float, stddev: float) -> None:
         """Take what an encoder or a camera says of the angle at the newest sample.
@@ -242,21 +187,12 @@ class StickSlipFilter:
             If the deviation is not a number above 0.
         """
         angle = check_bend_angle(self._design, bend_angle)
-        if not 0.0 < stddev < math.inf:
-            raise ValueError(f'stddev is {stddev!r} rad, which must be above 0')
-        # Each member is drawn to a reading of its own, by what it is worth beside their spread.
+        check_stddev(stddev)
         readings = self._ensemble.angles(angle, stddev)
-        spread = float(np.std(self._newest))
-        farthest = float(np.abs(self._newest - angle).min())
-        gain = spread**2 / (spread**2 + stddev**2)
-        if not self._assured or farthest > LOST * stddev:
-            gain = 1.0
-        self._committed = self._newest = self._newest + gain * (readings - self._newest)
+        sample = self._put(drawn_to(readings, self._newest, angle, stddev, assured=self._assured))
         self._assured = True
-        waiting = self._samples.waiting
-        if waiting:
-            waiting[-1].reading = angle, stddev
-            self._measured = len(waiting)
+        if sample is not None:
+            sample.reading = angle, stddev
             self._history.append(self._last.measured(self._newest))
 
     def _judge(self, sample: Sample, estimate: Estimate) -> None:
@@ -282,17 +218,3 @@ class StickSlipFilter:
         false less than once in a day at 500 Hz.
         """
         return self._consistency.probability
-
-    @property
-    def committed(self) -> FilterState | None:
-        """The newest state that will not be taken back; None before there is one."""
-        return self._history[-1] if self._history else None
-
-    def history(self, time: float) -> FilterState | None:
-        """Return the newest committed state that is not after a time in s, if it is kept."""
-        index = bisect.bisect_right(self._history, time, key=lambda state: state.time)
-        return self._history[index - 1] if index else None
-
-    def _forget_samples(self) -> None:
-        self._samples.forget()
-        self._measured = 0  # how many of those waiting there were at the last measured angle

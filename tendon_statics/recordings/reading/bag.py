@@ -13,7 +13,7 @@ from ..errors import RecordingError
 from ..progress import Progress, unseen
 from ..recording import Recording
 from ..session import OF_LOAD
-from .bag_beside import default_beside, find_beside, named_beside
+from .bag_beside import Beside, default_beside, find_beside, named_beside
 from .bag_storage import END_OF_TIME, Message, Messages, read_messages
 from .bag_tensions import find_tensions, tension_samples
 from .clock import Clocked, Stamped, Times, common_clock
@@ -49,24 +49,19 @@ def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Reco
     tensions = find_tensions(bag, names, topics)
     beside = find_beside(bag, topics)
     skew = round(min(topics.max_skew * 1e9, END_OF_TIME))
-    times, clocked = _times([tensions.messages, beside.messages], topics.clock, skew)
+    times, clocked = clocked_times([tensions.messages, beside.messages], topics.clock, skew)
     samples = tension_samples(tensions, times, clocked, topics)
     at = np.array([sample.time for sample in samples], dtype=np.int64)
     origin = int(at.min())
 
     def joined(quantity: str) -> npt.NDArray[Any] | None:
-        series = beside.series.get(quantity)
-        if series is None:
-            return None
-        values = np.array([*series.values, '' if quantity == 'state' else np.nan])
-        there = np.array([times[message.order] for message in series.messages], np.int64)
-        return values[_nearest(there, at, LOAD_SKEW if quantity in OF_LOAD else skew)]
+        return joined_to(at, beside, quantity, times, skew)
 
     state = joined('state')
     load: dict[str, Any] = {quantity: joined(quantity) for quantity in OF_LOAD}
     return Recording(
-        tension_l=np.array([sample.tension_l for sample in samples]),
-        tension_s=np.array([sample.tension_s for sample in samples]),
+        tension_l=np.array([sample.tensions[0] for sample in samples]),
+        tension_s=np.array([sample.tensions[1] for sample in samples]),
         bend_angle=joined('bend_angle'),
         pressure=joined('pressure'),
         **load,
@@ -82,7 +77,32 @@ def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Reco
     )
 
 
-def _times(
+def joined_to(
+    at: Times, beside: Beside, quantity: str, times: Mapping[int, int], skew: int
+) -> npt.NDArray[Any] | None:
+    """Return what was measured nearest to some times, NaN where nothing was; None of no topic.
+
+    Parameters
+    ----------
+    at : array
+        In ns.
+    times : mapping
+        `Message.order` → time in ns.
+    skew : int
+        ns by which it may be apart, but for the load.
+    """
+    series = beside.series.get(quantity)
+    if series is None:
+        return None
+    values = np.array([*series.values, '' if quantity == 'state' else np.nan])
+    there = np.array([times[message.order] for message in series.messages], np.int64)
+    found: npt.NDArray[Any] = values[
+        _nearest(there, at, LOAD_SKEW if quantity in OF_LOAD else skew)
+    ]
+    return found
+
+
+def clocked_times(
     used: Sequence[Mapping[str, Sequence[Message]]], clock: str, skew: int
 ) -> tuple[dict[int, int], Clocked]:
     """Return the time of every message, by its order, as `common_clock` chooses it, and how.

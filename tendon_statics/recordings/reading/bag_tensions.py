@@ -15,8 +15,9 @@ from ..errors import RecordingError
 from .bag_storage import Message, Messages, without_copies
 from .bag_values import (
     DYNAMIC,
-    ESTIMATE,
+    IN_NEWTONS,
     JOINT_STATE,
+    OF_ARM,
     ONE_TOPIC,
     SOURCES,
     TWO_TOPICS,
@@ -31,14 +32,14 @@ NAN = math.nan
 
 
 class Sample(NamedTuple):
-    """A pair of tensions, or why there is none."""
+    """The tensions of all cables, or why there are none."""
 
     order: int
     """Place among the messages of the bag of that which completed it"""
     time: int
     """ns"""
-    tension_l: float
-    tension_s: float
+    tensions: Sequence[float]
+    """In the order of the cables, NaN of one that is not known"""
     fault: str = ''
     """A `Reason`; empty if there is none"""
 
@@ -53,7 +54,7 @@ class TensionMessages:
     @property
     def in_newtons(self) -> bool:
         """Whether they are tensions for certain, and no readings of load cells."""
-        return any(message.kind == ESTIMATE for of in self.messages.values() for message in of[:1])
+        return any(of[0].kind in IN_NEWTONS for of in self.messages.values() if of)
 
 
 def find_tensions(bag: Messages, names: Sequence[str], topics: BagTopics) -> TensionMessages:
@@ -65,9 +66,11 @@ def find_tensions(bag: Messages, names: Sequence[str], topics: BagTopics) -> Ten
         If there are none, or they are of another type.
     """
     kinds: tuple[str, ...] = TWO_TOPICS if len(names) == 2 else ONE_TOPIC
+    if topics.arm_joints:
+        kinds = OF_ARM
     if topics.tension_source is not None:
         kinds = tuple(
-            kind for kind in kinds if kind in (*SOURCES[topics.tension_source], ESTIMATE)
+            kind for kind in kinds if kind in (*SOURCES[topics.tension_source], *IN_NEWTONS)
         )
         if not kinds:
             raise RecordingError(
@@ -100,7 +103,7 @@ def find_tensions(bag: Messages, names: Sequence[str], topics: BagTopics) -> Ten
 def _of_one_topic(
     bag: Messages, name: str, messages: Sequence[Message], topics: BagTopics
 ) -> TensionMessages:
-    """Leave out the messages that are about neither cable.
+    """Leave out the messages that are about no cable.
 
     Raises
     ------
@@ -109,8 +112,9 @@ def _of_one_topic(
     """
     read = cables_in(topics)
     values = [read(message) for message in messages]
-    pairs = [value.values for value in values if value.values]
-    if not all(any(pair[cable] is not None for pair in pairs) for cable in (0, 1)):
+    told = [value.values for value in values if value.values]
+    cables = range(len(topics.cable_names))
+    if not all(any(of[cable] is not None for of in told) for cable in cables):
         raise RecordingError(_nothing(name, messages, values, topics))
     ours = [m for m, value in zip(messages, values, strict=True) if not value.is_foreign]
     ours = without_copies(bag, name, ours)
@@ -124,9 +128,10 @@ def _nothing(
     kind = messages[0].kind
     if kind not in (JOINT_STATE, DYNAMIC):
         lengths = sorted({len(message.content.data) for message in messages})
-        return (
-            f'the messages on {name} hold {" or ".join(map(str, lengths))} numbers; '
-            'two are needed, T_l and T_s'
+        return f'the messages on {name} hold {" or ".join(map(str, lengths))} numbers; ' + (
+            f'{len(topics.needed)} are needed, {", ".join(topics.needed)}'
+            if topics.arm_joints
+            else 'two are needed, T_l and T_s'
         )
     field = topics.interface if kind == DYNAMIC else 'effort'
     there: dict[str, None] = {}
@@ -138,9 +143,13 @@ def _nothing(
             there.update(dict.fromkeys(content.name))
     fault = next((value.fault[1] for value in values if value.fault), '')
     return (
-        f'no message on {name} has the {field} of {" and ".join(topics.cable_names)}'
+        f'no message on {name} has the {field} of {_listed(topics.cable_names)}'
         f'{f" ({fault})" * bool(fault)}; there is that of: {", ".join(sorted(there)) or "none"}'
     )
+
+
+def _listed(names: Sequence[str]) -> str:
+    return ' and '.join([', '.join(names[:-1]), names[-1]])
 
 
 def tension_samples(
@@ -161,14 +170,13 @@ def tension_samples(
     samples: list[Sample] = []
 
     def deliver(whole: Whole) -> None:
-        tension_l, tension_s = whole.values
-        samples.append(Sample(max(whole.sources), whole.time, tension_l, tension_s))
+        samples.append(Sample(max(whole.sources), whole.time, whole.values))
 
     def drop(fault: Fault, of: Part) -> None:
         # Of what cannot be trusted, not even the value counts.
         known = of.values if fault[0] is Reason.UNPAIRED else {}
-        pair = known.get(0, NAN), known.get(1, NAN)
-        samples.append(Sample(of.source, of.time, *pair, fault[0].value))
+        tensions = [known.get(cable, NAN) for cable in range(len(topics.cable_names))]
+        samples.append(Sample(of.source, of.time, tensions, fault[0].value))
 
     joining = Joining(deliver, drop, topics.cable_names, lambda: topics.pair_skew)
     arrivals = [

@@ -21,6 +21,7 @@ DYNAMIC = 'control_msgs/msg/DynamicJointState'
 WRENCH = 'geometry_msgs/msg/WrenchStamped'
 BARE_WRENCH = 'geometry_msgs/msg/Wrench'
 ESTIMATE = 'tendon_statics_interfaces/msg/Estimate'
+ARM_ESTIMATE = 'tendon_statics_interfaces/msg/ArmEstimate'
 
 SOURCES: Mapping[str, tuple[str, ...]] = {
     'array': (ARRAY, ARRAY_32),
@@ -34,6 +35,12 @@ ONE_TOPIC = (ARRAY, ARRAY_32, JOINT_STATE, DYNAMIC, ESTIMATE)
 
 TWO_TOPICS = (NUMBER, NUMBER_32, BARE_WRENCH, WRENCH)
 """Types of two topics with one tension each"""
+
+OF_ARM = (ARRAY, ARRAY_32, JOINT_STATE, DYNAMIC, ARM_ESTIMATE)
+"""Types of a topic with the tensions of an arm's cables"""
+
+IN_NEWTONS = (ESTIMATE, ARM_ESTIMATE)
+"""Types that hold tensions for certain, and no readings of load cells"""
 
 Value = Callable[[Message], Any]
 
@@ -74,10 +81,11 @@ def cables_in(topics: BagTopics) -> Callable[[Message], NamedValues]:
 
     def array(content: Any) -> NamedValues:
         data = content.data
-        if len(data) != 2:
-            text = f'{len(data)} values came, [tension_l, tension_s] is needed'
+        if len(data) != len(topics.cable_names):
+            needed = ', '.join(topics.needed)
+            text = f'{len(data)} values came, [{needed}] is needed'
             return NamedValues(fault=(Reason.WRONG_LENGTH, text))
-        return NamedValues((float(data[0]), float(data[1])))
+        return NamedValues(tuple(map(float, data)))
 
     def joint_state(content: Any) -> NamedValues:
         return cable_values(content.name, content.effort, topics.cable_names)
@@ -88,11 +96,15 @@ def cables_in(topics: BagTopics) -> Callable[[Message], NamedValues]:
     def estimate(content: Any) -> NamedValues:
         return NamedValues((content.tension_l, content.tension_s))
 
+    def arm_estimate(content: Any) -> NamedValues:
+        return cable_values(content.cable_names, content.tensions, topics.cable_names, 'tension')
+
     by_kind: dict[str, Callable[[Any], NamedValues]] = {
         **dict.fromkeys((ARRAY, ARRAY_32), array),
         JOINT_STATE: joint_state,
         DYNAMIC: dynamic,
         ESTIMATE: estimate,
+        ARM_ESTIMATE: arm_estimate,
     }
     return lambda message: by_kind[message.kind](message.content)
 

@@ -82,6 +82,7 @@ def load_recording(
 def load_arm_recording(
     path: str | Path,
     arm: Arm,
+    topics: BagTopics | None = None,
     table: TableOptions | None = None,
     *,
     progress: Progress = unseen,
@@ -90,11 +91,15 @@ def load_arm_recording(
 
     A table has a column for the tension of each cable, at the base, titled with its name, and,
     where there are such, ``time``, the load, and measured angles ``bend_angle_1`` and so on, from
-    the base on. What else is in it is left alone.
+    the base on. What else is in it is left alone. A bag has all cables by name in a
+    ``JointState``, or in parts that belong together, or an array in the arm's order.
 
     Parameters
     ----------
     arm : Arm
+    topics : BagTopics, optional
+        Of a bag; its cables are the arm's, and the joints `arm_joint_1` and so on, unless it names
+        them.
     table : TableOptions, optional
         Of a table. Where columns or units are named, it has to be made with the arm's quantities:
         ``TableOptions(quantities=of_arm(arm), ...)``.
@@ -107,6 +112,15 @@ def load_arm_recording(
     path = Path(path)
     options = dataclasses.replace(table or TableOptions(), quantities=of_arm(arm))
     with _named(path):
+        if path.is_dir() or is_bag_file(path):
+            from .arm_bag import load_arm_bag
+
+            topics = topics or BagTopics()
+            joints = tuple(f'arm_joint_{number}' for number in range(1, len(arm.units) + 1))
+            topics = dataclasses.replace(
+                topics, cable_names=arm.cable_names, arm_joints=topics.arm_joints or joints
+            )
+            return load_arm_bag(path, topics, progress)
         found = _table(path, options, progress)
         return _timed(found.of_arm(arm.cable_names, len(arm.units)), options)
 

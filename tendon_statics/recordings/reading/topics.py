@@ -28,8 +28,8 @@ class BagTopics:
     tensions: tuple[str, ...] | None = None
     """One topic of a type in `ONE_TOPIC`, or two of a type in `TWO_TOPICS`, cable l first; None:
     `DEFAULT_TENSIONS`, or `DEFAULT_PAIR` if the bag has that instead"""
-    cable_names: tuple[str, str] = ('cable_l', 'cable_s')
-    """Names of the cables in messages with names"""
+    cable_names: tuple[str, ...] = ('cable_l', 'cable_s')
+    """Names of the cables in messages with names; of an arm in its order"""
     force_component: str = 'z'
     """Of a wrench: one of `FORCE_COMPONENTS`"""
     bend_angle: str | None = None
@@ -61,6 +61,9 @@ class BagTopics:
     """One of `TENSION_SOURCES`: which type the tensions have; None: any that can be read"""
     interface: str = 'effort'
     """Of the cables in a ``DynamicJointState``"""
+    arm_joints: tuple[str, ...] = ()
+    """Names of the joints of an arm, from the base on, in messages of measured angles; empty where
+    it is a unit"""
 
     @property
     def pair_skew(self) -> float:
@@ -78,7 +81,7 @@ class BagTopics:
         """
         if self.tensions is not None:
             _check_names('topic of tensions', self.tensions, (1, 2))
-        _check_names('cable', self.cable_names, (2,))
+        _check_names('cable', self.cable_names, (len(self.cable_names) if self.arm_joints else 2,))
         for name in (self.bend_angle, self.pressure, self.state, self.base, self.tip_wrench):
             if name is not None:
                 _check_names('topic', (name,), (1,))
@@ -100,6 +103,11 @@ class BagTopics:
                     f'the largest skew is {skew!r} s; '
                     'a finite number that is not negative is needed'
                 )
+
+    @property
+    def needed(self) -> tuple[str, ...]:
+        """What an array without names has to hold."""
+        return self.cable_names if self.arm_joints else ('tension_l', 'tension_s')
 
 
 def full_name(topic: str) -> str:

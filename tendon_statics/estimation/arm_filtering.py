@@ -1,0 +1,123 @@
+"""``estimation: filtering`` of an arm: with the memory of an `ArmFilter`, for noisy load cells."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from .arm_settings import ArmSettings
+from .estimate import Sample
+from .filtered_arm_estimate import FilteredArmEstimate
+from .filtering import BEYOND_STOP, ForwardClock
+from .method import WayOfEstimating
+
+if TYPE_CHECKING:
+    from ..physics import ArmFilter
+
+Place = tuple[tuple[float, ...], tuple[float, ...]]
+"""Angles of the joints, and their deviations, in rad"""
+
+
+class ArmFiltering(WayOfEstimating[ArmSettings, FilteredArmEstimate]):
+    """Follows an arm, and takes each set of tensions for a noisy reading."""
+
+    remembers = True
+
+    def __init__(self, settings: ArmSettings) -> None:
+        super().__init__(settings)
+        self._place: Place = (settings.start, (0.0,) * len(settings.start))
+        self._assured = True
+        self._filter = self._new_filter()
+        self._clock = ForwardClock()
+        self._newest: FilteredArmEstimate | None = None
+
+    @classmethod
+    def refusal(cls, settings: ArmSettings) -> str:
+        """Return why it cannot work with settings: noise is what it is made for."""
+        if settings.tension_stddev > 0.0:
+            return ''
+        return (
+            f'tension_stddev is {settings.tension_stddev!r}, and estimation is filtering, which '
+            'needs the noise of each tension, above 0 N; tracking is for tensions without noise'
+        )
+
+    def _new_filter(self) -> ArmFilter:
+        """Return a filter of an arm that is where it was last."""
+        from ..physics import ArmFilter  # Here, for who only follows needs no more of NumPy.
+
+        settings, (angles, stddevs) = self.settings, self._place
+        found = ArmFilter(
+            settings.arm,
+            bend_angles=angles,
+            bend_angle_stddev=stddevs,
+            tension_stddev=settings.tension_stddev,
+            tension_bias_stddev=settings.tension_bias_stddev,
+            lag=settings.filter_lag,
+        )
+        if not self._assured:
+            found.doubt()
+        return found
+
+    def update(self, sample: Sample) -> FilteredArmEstimate:
+        """Follow the arm through a set of tensions."""
+        self._newest = self._updated(self._filter, sample, self._clock.time(sample))
+        state = self._newest.state
+        if state.bend_angles is not None:
+            self._place = state.bend_angles, tuple(state.members.std(axis=0).tolist())
+        self._assured = all(state.angles_assured)
+        return self._newest
+
+    def imagine(self, sample: Sample) -> FilteredArmEstimate:
+        """Work out where a set of tensions would take the arm."""
+        return self._updated(self._new_filter(), sample, 0.0)
+
+    def again(self, sample: Sample) -> FilteredArmEstimate:
+        """Return the newest estimate, which has the samples before it in it."""
+        return self._newest or self.imagine(sample)
+
+    def _updated(self, found: ArmFilter, sample: Sample, time: float) -> FilteredArmEstimate:
+        names, known = self.settings.arm.cable_names, sample.known
+        by_name = dict(zip(names, sample.tensions, strict=True))
+        state = found.update(by_name, time, known.load)
+        return FilteredArmEstimate(state, known, self.settings)
+
+    def change_settings(self, settings: ArmSettings) -> str:
+        """Go on with other settings, from where the arm is; the samples before are forgotten."""
+        before, self.settings = self.settings, settings
+        if _made_of(settings) != _made_of(before):
+            self._begin_anew(self._new_filter())
+        return ''
+
+    def doubt(self) -> None:
+        """Take it that the arm may have moved unseen."""
+        self._filter.doubt()
+        self._assured = False
+
+    def put(self, bend_angles: Sequence[float]) -> None:
+        """Put the joints to angles in rad."""
+        self._filter.reset(bend_angles)
+        self._place, self._assured = (tuple(bend_angles), (0.0,) * len(bend_angles)), True
+        self._begin_anew(self._filter)
+
+    def measure(self, bend_angles: Mapping[int, float]) -> None:
+        """Take angles in rad that sensors say; a little beyond the stop is at the stop."""
+        stddev = self.settings.measured_bend_angle_stddev
+        for joint, angle in bend_angles.items():
+            stop = self.settings.arm.stops[joint - 1]
+            if stop < abs(angle) <= stop + BEYOND_STOP * stddev:
+                angle = math.copysign(stop, angle)
+            self._filter.measure(joint, angle, stddev)
+        self._newest = None
+
+    def _begin_anew(self, found: ArmFilter) -> None:
+        self._filter = found
+        self._newest = None
+
+
+def _made_of(settings: ArmSettings) -> tuple[Any, ...]:
+    """What of the settings a filter is made of, or its samples are."""
+    return (
+        *(settings.scales, settings.filter_lag),
+        *(settings.tension_stddev, settings.tension_bias_stddev),
+    )

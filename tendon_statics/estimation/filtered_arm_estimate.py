@@ -1,0 +1,92 @@
+"""What is said of an arm where tensions are noisy: the answer of a filter."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from ..physics import Regime
+from .arm_estimate import ArmEstimate
+from .arm_settings import ArmSettings
+from .estimate import Interval, KnownLoad, Remark
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ..physics import ArmFilterState, TipPose
+
+
+class FilteredArmEstimate(ArmEstimate):
+    """Where a filter says that an arm is: medians, and how far the noise lets one know.
+
+    Attributes
+    ----------
+    state : ArmFilterState
+        The filter's answer.
+    """
+
+    state: ArmFilterState  # type: ignore[assignment]
+
+    def __init__(self, state: ArmFilterState, known: KnownLoad, settings: ArmSettings) -> None:
+        self.state = state
+        self.known = known
+        self.settings = settings
+
+    @property
+    def bend_angle_stddevs(self) -> tuple[float | None, ...]:
+        """Standard deviation of each angle in rad; None where not assured."""
+        if not self.known.is_assured:
+            return (None,) * len(self.state.joints)
+        return self.state.bend_angle_stddevs
+
+    @property
+    def intervals(self) -> tuple[Interval | None, ...]:
+        """Interval that holds each angle with the confidence; None where not assured."""
+        found = self.state.intervals(self.settings.confidence)
+        return tuple(
+            interval if assured else None
+            for interval, assured in zip(found, self.angles_assured, strict=True)
+        )
+
+    @property
+    def regime_probabilities(self) -> tuple[Mapping[Regime, float], ...]:
+        """Probability of each regime, joint by joint."""
+        return self.state.regime_probabilities
+
+    @property
+    def tip_covariance(self) -> NDArray[np.float64] | None:
+        """Of the tip's (x, z, tilt); None where an angle is not assured."""
+        return self.state.tip_covariance if self.known.is_assured else None
+
+    @property
+    def tip_interval(self) -> tuple[TipPose, TipPose] | None:
+        """Lower and upper ends of the intervals that hold x, z and tilt of the tip."""
+        if not all(self.angles_assured):
+            return None
+        return self.state.tip_interval(self.settings.confidence)
+
+    @property
+    def bands(self) -> list[list[Interval]]:
+        """None: the noise of one set of tensions would make them flicker."""
+        return [[] for _ in self.state.joints]
+
+    @property
+    def slow_remarks(self) -> list[Remark]:
+        """None beside those that are quick to tell: the noise is in the answer."""
+        return []
+
+    def joints_with(self, remark: Remark) -> list[bool]:
+        """Return which joints have a remark, as far as it is of joints."""
+        if remark is Remark.UNASSURED:
+            return [not assured for assured in self.angles_assured]
+        return [False] * len(self.state.joints)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return it by name, ready for JSON; what is not known is None."""
+        return {
+            'joint_names': self.settings.joint_names,
+            **self.state.as_dict(),
+            'angles_assured': self.angles_assured,
+            'bend_angle_stddevs': self.bend_angle_stddevs,
+        }
