@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import re
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from ..files.cable_parameters import TENSION_SOURCES
@@ -167,9 +169,14 @@ def _add_table_options(table: argparse._ArgumentGroup) -> None:
 def unit_and_recording(options: argparse.Namespace) -> tuple[Unit, Recording]:
     """Read the design file and the recording that the options name.
 
-    The tensions are in N and have faults as the estimator would find them with that file.
+    The tensions are in N and have faults as the estimator would find them with that file, and the
+    noise that the options say.
     """
     unit = unit_from(options)
+    stddev = getattr(options, 'tension_stddev', None)
+    if stddev is not None:
+        settings = dataclasses.replace(unit.settings, tension_stddev=stddev)
+        unit = dataclasses.replace(unit, settings=settings)
     return unit, recording_from(options, unit, options.data)
 
 
@@ -231,9 +238,15 @@ def report_damage(recording: Recording) -> int:
     return 1
 
 
-def report_notes(unit: Unit, recording: Recording) -> None:
-    """Name on stderr how it was read and what looks wrong, for verbs whose output is a table."""
-    for text in (*recording.notes, *hints(recording, unit.design, unit.settings.plausibility)):
+def report_notes(unit: Unit, recording: Recording, doubts: Sequence[str] = ()) -> None:
+    """Name on stderr how it was read and what looks wrong, for verbs whose output is a table.
+
+    Parameters
+    ----------
+    doubts : sequence of str
+        What else does.
+    """
+    for text in (*recording.notes, *hints(recording, unit.settings), *doubts):
         print(f'tendon-statics: {recording.name}: {text}', file=sys.stderr)
 
 

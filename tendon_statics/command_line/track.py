@@ -54,5 +54,5 @@ def run(options: argparse.Namespace) -> int:
         'angle_assured': tracked.angle_assured,
     }
     write_csv(sys.stdout, columns)
-    report_notes(unit, recording)
+    report_notes(unit, recording, unit.settings.doubts)
     return report_damage(recording)

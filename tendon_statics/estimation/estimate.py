@@ -36,6 +36,13 @@ class Sample(NamedTuple):
     """When it was taken, on a clock in s that only goes forward"""
     measured: float = math.nan
     """When it was measured, on any clock in s; NaN if that is not known"""
+    is_confirmed: bool = True
+    """False of the first that a rate is checked of, which may be a spike"""
+
+    @property
+    def is_assured(self) -> bool:
+        """Whether the tensions and all that acts beside them are as they are given, for sure."""
+        return self.is_confirmed and self.known.is_assured
 
 
 class Remark(Enum):
@@ -52,7 +59,8 @@ class Remark(Enum):
     UNASSURED = 'the unit may have moved unseen, so that its angle is not assured'
     NOISE = (
         'noise of tension_stddev alone can slip the unit, and by more than a degree, where each '
-        'sample is believed: estimation: filtering is for such load cells'
+        'sample is believed, so that its angle is not assured: estimation: filtering is for such '
+        'load cells'
     )
     HELD = 'held, so that tensions do not determine the angle'
     OTHER_ROOT = 'forces ask for the other root of the model'

@@ -25,6 +25,8 @@ class FilteredEstimate(Estimate):
     ----------
     measured : float
         When the tensions were, in s.
+    is_confirmed : bool
+        Whether they are no first reading that may be a spike.
     """
 
     def __init__(
@@ -33,6 +35,8 @@ class FilteredEstimate(Estimate):
         known: KnownLoad,
         settings: Settings,
         measured: float,
+        *,
+        is_confirmed: bool = True,
     ) -> None:
         tensions = (state.tension_l, state.tension_s)
         super().__init__(known, settings, state.regime, tensions, state.bend_angle)
@@ -40,7 +44,7 @@ class FilteredEstimate(Estimate):
         self.measured = measured
         self.is_provisional = state.provisional
         self.consistency = state.consistency
-        self._assured = state.angle_assured and known.is_assured
+        self._assured = state.angle_assured and known.is_assured and is_confirmed
 
     @property
     def angle_assured(self) -> bool:

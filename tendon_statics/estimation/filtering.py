@@ -93,14 +93,18 @@ class Filtering(Method):
     def imagine(self, sample: Sample) -> FilteredEstimate:
         """Work out where a pair of tensions would take the unit."""
         state = self._new_filter().update(*sample[:2], 0.0, sample.known.load)
-        return self._estimate(state, sample.known, sample.measured)
+        return self._estimate(
+            state, sample.known, sample.measured, is_confirmed=sample.is_confirmed
+        )
 
     def again(self, sample: Sample) -> Estimate:
         """Return the newest estimate, which has the samples before it in it."""
         return self._newest or self.imagine(sample)
 
-    def _estimate(self, state: FilterState, known: KnownLoad, measured: float) -> FilteredEstimate:
-        return FilteredEstimate(state, known, self.settings, measured)
+    def _estimate(
+        self, state: FilterState, known: KnownLoad, measured: float, *, is_confirmed: bool = True
+    ) -> FilteredEstimate:
+        return FilteredEstimate(state, known, self.settings, measured, is_confirmed=is_confirmed)
 
     def take_committed(self) -> list[Estimate]:
         """Return the estimates that will not be taken back, each once; tensions are smoothed."""

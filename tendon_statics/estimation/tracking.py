@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import copy
+import math
 
-from ..physics import Equilibrium, Regime, StickSlipTracker
-from ..physics.noise_risk import noise_risk
-from .estimate import ExactEstimate, KnownLoad, Remark, Sample
+from ..physics import Equilibrium, Regime, StickSlipTracker, TensionError, admissible_angles
+from ..physics.noise_risk import LARGEST, noise_risk
+from .estimate import ExactEstimate, Remark, Sample
 from .method import Method, within_stop
 from .settings import Settings
 
@@ -21,19 +22,27 @@ class TrackedEstimate(ExactEstimate):
     ----------
     brought : Equilibrium, optional
         How it came where it is, as an answer of `solve`; None if it was put there.
+    is_assured : bool
+        Whether all that was taken to be so, up to now, is so for sure.
+    is_noisy : bool
+        Whether noise of these tensions alone can slip it too far.
     """
 
     def __init__(
         self,
         result: Equilibrium,
-        known: KnownLoad,
+        sample: Sample,
         settings: Settings,
         brought: Equilibrium | None,
+        *,
+        is_assured: bool,
+        is_noisy: bool,
     ) -> None:
-        if not known.is_assured:  # Under a load that may be wrong nothing of the unit is sure.
+        if not is_assured:
             result = result._replace(angle_assured=False)
-        super().__init__(result, known, settings)
+        super().__init__(result, sample.known, settings)
         self._brought = brought
+        self._is_noisy = is_noisy
 
     @property
     def angle_assured(self) -> bool:
@@ -54,14 +63,18 @@ class TrackedEstimate(ExactEstimate):
         found = super().remarks
         if not self.angle_assured:
             found.append(Remark.UNASSURED)
-        risk = noise_risk(self.result, self.settings.tension_stddev)
-        if risk is not None and risk.is_unsafe:
+        if self._is_noisy:
             found.append(Remark.NOISE)
         return found
 
 
 class Tracking(Method):
-    """Follows the unit, and takes each pair of tensions as it is."""
+    """Follows the unit, and takes each pair of tensions as it is.
+
+    Where noise of them alone can slip the unit and by more than a degree, that is not safe: it may
+    then be elsewhere, as after all else that casts doubt, though it is followed as before. A stop
+    tells where it is if friction can hold it nowhere else, whatever the noise.
+    """
 
     remembers = True
 
@@ -69,6 +82,8 @@ class Tracking(Method):
         super().__init__(settings)
         self._tracker = StickSlipTracker(settings.design, settings.initial_bend_angle)
         self._brought: Equilibrium | None = None
+        self._may_be_elsewhere = False
+        """Whether noise, or what nobody saw, may have slipped it"""
 
     def update(self, sample: Sample) -> TrackedEstimate:
         """Follow the unit through a pair of tensions."""
@@ -77,13 +92,41 @@ class Tracking(Method):
             self._brought = result._replace(
                 regime=AT_LIMIT[result.regime], root_count=1, slip_gradient=None
             )
-        return TrackedEstimate(result, sample.known, self.settings, self._brought)
+        is_noisy = self._is_noisy(result)
+        self._may_be_elsewhere |= is_noisy or not result.angle_assured
+        if self._may_be_elsewhere and self._is_at_stop_for_sure(result):
+            self._may_be_elsewhere = False
+        return self._estimate(result, sample, is_noisy=is_noisy)
 
     def imagine(self, sample: Sample) -> TrackedEstimate:
         """Work out where a pair of tensions would take the unit."""
         tracker = copy.copy(self._tracker)
         result = tracker.update(sample.tension_l, sample.tension_s, sample.known.load)
-        return TrackedEstimate(result, sample.known, self.settings, self._brought)
+        return self._estimate(result, sample, is_noisy=self._is_noisy(result))
+
+    def _is_noisy(self, result: Equilibrium) -> bool:
+        risk = noise_risk(result, self.settings.tension_stddev)
+        return risk is not None and risk.is_unsafe
+
+    def _is_at_stop_for_sure(self, result: Equilibrium) -> bool:
+        """Whether a unit that may be anywhere is driven to the stop, whatever the noise."""
+        if result.regime is not Regime.DRIVEN_TO_STOP:
+            return False
+        # Least driven, and held most.
+        noise = math.copysign(LARGEST * self.settings.tension_stddev, result.bend_angle or 0.0)
+        pair = result.tension_l + noise, result.tension_s - noise
+        try:
+            return not admissible_angles(self.settings.design, *pair, result.load)
+        except TensionError:
+            return False
+
+    def _estimate(self, result: Equilibrium, sample: Sample, *, is_noisy: bool) -> TrackedEstimate:
+        is_safe = not (is_noisy or self._may_be_elsewhere)
+        return TrackedEstimate(
+            *(result, sample, self.settings, self._brought),
+            is_assured=sample.is_assured and is_safe,
+            is_noisy=is_noisy,
+        )
 
     def change_settings(self, settings: Settings) -> str:
         """Go on with other settings, from the same angle."""
@@ -98,8 +141,10 @@ class Tracking(Method):
     def doubt(self) -> None:
         """Take it that the unit may have moved unseen."""
         self._tracker.doubt()
+        self._may_be_elsewhere = True
 
     def put(self, bend_angle: float) -> None:
         """Put the unit to an angle in rad."""
         self._tracker.reset(bend_angle)
         self._brought = None
+        self._may_be_elsewhere = False

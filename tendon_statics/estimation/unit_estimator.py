@@ -64,8 +64,7 @@ class UnitEstimator:
     def change_settings(self, settings: Settings) -> str:
         """Go on with other settings; return what is to be said of the unit, mostly nothing."""
         before, self._settings = self._settings, settings
-        if settings.scales != before.scales:  # What was watched was in other newtons.
-            self._watch = PairWatch()
+        self._watch.rescale(before.scales, settings.scales)
         return self._method.change_settings(settings)
 
     # Readings
@@ -117,7 +116,7 @@ class UnitEstimator:
             tension_l, tension_s = self._watch.take(
                 (tension_l, tension_s), measured, settings.scales, settings.plausibility
             )
-            sample = Sample(tension_l, tension_s, known, now, measured)
+            sample = Sample(tension_l, tension_s, known, now, measured, self._watch.is_confirmed)
             estimate = self._followed(sample)
         except ReadingError as error:
             raise self._refused((error.reason, str(error))) from None
@@ -149,8 +148,8 @@ class UnitEstimator:
     def _followed(self, sample: Sample) -> Estimate:
         """Work out where the unit goes; under a load that may be wrong nothing of it is sure."""
         method, known = self._method, sample.known
-        if method.remembers and not known.is_measured:
-            # The unit stays where it began until the load is known.
+        if method.remembers and not (known.is_measured and sample.is_confirmed):
+            # The unit stays where it is until the load is known, and the tensions are no spike.
             return method.imagine(sample)
         estimate = method.update(sample)
         if not known.is_assured:

@@ -71,7 +71,9 @@ def test_each_sample_is_as_the_filter_says_it(session):
     # It was at rest below slip for a second, which noise alone ends for who believes it.
     rest = slice(100, 200)
     assert np.abs(found.error[rest]).max() < math.radians(1.0)
-    assert np.abs(tracked.error[rest]).max() > math.radians(10.0)
+    assert np.abs(tracked.bend_angle - session.bend_angle)[rest].max() > math.radians(10.0)
+    # It does not say that it is sure, at the stop to which noise has slipped it either.
+    assert not tracked.angle_assured[rest].any()
 
 
 def test_it_needs_times(session):
