@@ -11,7 +11,7 @@ from designs import PRELIMINARY
 from programs import assert_refused, run
 from pyarrow import parquet
 
-from tendon_statics import Recording, RecordingError, TensionError, solve
+from tendon_statics import Recording, RecordingError, Regime, TensionError, solve
 from tendon_statics.files.installed_files import installed_config
 from tendon_statics.files.output_file import OutputError
 from tendon_statics.physics import StickSlipTracker, slip_margin
