@@ -39,11 +39,6 @@ class Sample(NamedTuple):
     is_confirmed: bool = True
     """False of the first that a rate is checked of, which may be a spike"""
 
-    @property
-    def is_assured(self) -> bool:
-        """Whether the tensions and all that acts beside them are as they are given, for sure."""
-        return self.is_confirmed and self.known.is_assured
-
 
 class Remark(Enum):
     """What is not as it should be with an estimate; the values are for the user, worst first."""

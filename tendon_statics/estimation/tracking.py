@@ -7,7 +7,7 @@ import math
 
 from ..physics import Equilibrium, Regime, StickSlipTracker, TensionError, admissible_angles
 from ..physics.noise_risk import LARGEST, noise_risk
-from .estimate import ExactEstimate, Remark, Sample
+from .estimate import ExactEstimate, KnownLoad, Remark, Sample
 from .method import Method, within_stop
 from .settings import Settings
 
@@ -23,7 +23,7 @@ class TrackedEstimate(ExactEstimate):
     brought : Equilibrium, optional
         How it came where it is, as an answer of `solve`; None if it was put there.
     is_assured : bool
-        Whether all that was taken to be so, up to now, is so for sure.
+        Whether the tensions, now and before, are such that it is there for sure.
     is_noisy : bool
         Whether noise of these tensions alone can slip it too far.
     """
@@ -31,16 +31,16 @@ class TrackedEstimate(ExactEstimate):
     def __init__(
         self,
         result: Equilibrium,
-        sample: Sample,
+        known: KnownLoad,
         settings: Settings,
         brought: Equilibrium | None,
         *,
-        is_assured: bool,
-        is_noisy: bool,
+        is_assured: bool = True,
+        is_noisy: bool = False,
     ) -> None:
-        if not is_assured:
+        if not (is_assured and known.is_assured):
             result = result._replace(angle_assured=False)
-        super().__init__(result, sample.known, settings)
+        super().__init__(result, known, settings)
         self._brought = brought
         self._is_noisy = is_noisy
 
@@ -123,8 +123,8 @@ class Tracking(Method):
     def _estimate(self, result: Equilibrium, sample: Sample, *, is_noisy: bool) -> TrackedEstimate:
         is_safe = not (is_noisy or self._may_be_elsewhere)
         return TrackedEstimate(
-            *(result, sample, self.settings, self._brought),
-            is_assured=sample.is_assured and is_safe,
+            *(result, sample.known, self.settings, self._brought),
+            is_assured=sample.is_confirmed and is_safe,
             is_noisy=is_noisy,
         )
 
