@@ -61,7 +61,7 @@ class Study:
             'samples': len(recording),
             'damage': recording.damage,
             'notes': recording.notes,
-            'warnings': tuple(hints(recording, self.unit.design, self.unit.settings.plausibility)),
+            'warnings': tuple(hints(recording, self.unit.settings)),
             'clock': recording.clock,
             'time_origin': recording.time_origin or None,
         }

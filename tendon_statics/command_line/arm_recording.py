@@ -50,8 +50,7 @@ class FollowedArm(NamedTuple):
     @property
     def hints(self) -> list[str]:
         """What looks wrong with the recording."""
-        settings = self.settings
-        return arm_hints(self.replay.recording, settings.arm, settings.plausibility)
+        return arm_hints(self.replay.recording, self.settings)
 
 
 def add_arm_recording_options(parser: argparse.ArgumentParser) -> None:

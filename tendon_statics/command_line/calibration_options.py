@@ -183,7 +183,7 @@ def calibration_from(options: argparse.Namespace, unit: Unit, recording: Recordi
     except ImportError:
         raise UsageError(NEEDS_SCIPY) from None
     except (CalibrationError, DesignError, RecordingError) as error:
-        doubts = hints(recording, unit.design, unit.settings.plausibility)
+        doubts = hints(recording, unit.settings)
         if recording.damage:
             doubts.append(f'not all of it could be read: {recording.damage_summary}')
         raise type(error)('; '.join([str(error), *doubts])) from None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import re
 import sys
 from collections.abc import Sequence
@@ -177,9 +178,14 @@ def add_table_options(parser: argparse.ArgumentParser, columns: str, units: str)
 def unit_and_recording(options: argparse.Namespace) -> tuple[Unit, Recording]:
     """Read the design file and the recording that the options name.
 
-    The tensions are in N and have faults as the estimator would find them with that file.
+    The tensions are in N and have faults as the estimator would find them with that file, and the
+    noise that the options say.
     """
     unit = unit_from(options)
+    stddev = getattr(options, 'tension_stddev', None)
+    if stddev is not None:
+        settings = dataclasses.replace(unit.settings, tension_stddev=stddev)
+        unit = dataclasses.replace(unit, settings=settings)
     return unit, recording_from(options, unit, options.data)
 
 
@@ -245,7 +251,7 @@ def report_damage(recording: Session) -> int:
 
 def report_notes(unit: Unit, recording: Recording) -> None:
     """Name on stderr how it was read and what looks wrong, for verbs whose output is a table."""
-    say_notes(recording, hints(recording, unit.design, unit.settings.plausibility))
+    say_notes(recording, hints(recording, unit.settings))
 
 
 def say_notes(recording: Session, hints: Sequence[str]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 from ..estimation.estimate import Remark
@@ -23,6 +24,7 @@ def replay_facts(replay: Replay, unit: Unit, design: JointDesign) -> Facts:
     return [
         *recording_facts(replay.recording, summary),
         *reading_facts(replay.recording, unit, design),
+        *(('warning', doubt) for doubt in unit.settings.doubts),
         *setting_facts(design, replay.load),
         ('estimation', replay.estimation),
         ('regimes', regimes_text(summary)),
@@ -35,9 +37,10 @@ def replay_facts(replay: Replay, unit: Unit, design: JointDesign) -> Facts:
 
 def reading_facts(recording: Recording, unit: Unit, design: JointDesign) -> Facts:
     """How a recording was read, and what looks wrong with it."""
+    settings = dataclasses.replace(unit.settings, design=design)
     return [
         *(('read', note) for note in recording.notes),
-        *(('warning', hint) for hint in hints(recording, design, unit.settings.plausibility)),
+        *(('warning', hint) for hint in hints(recording, settings)),
     ]
 
 

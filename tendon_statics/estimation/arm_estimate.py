@@ -53,14 +53,14 @@ class ArmEstimate(AnyEstimate):
     @property
     def angles_assured(self) -> tuple[bool, ...]:
         """False for a joint that may have moved unseen; for all under a load that may be wrong."""
-        if not self.known.is_assured:
+        if not self.is_sure:
             return (False,) * len(self.state.joints)
         return self.state.angles_assured
 
     @property
     def bend_angle_stddevs(self) -> tuple[float | None, ...]:
         """Standard deviation of each angle in rad, to first order; None where not assured."""
-        if not self.known.is_assured:
+        if not self.is_sure:
             return (None,) * len(self.state.joints)
         return self.state.bend_angle_stddevs(self.settings.tension_stddev)
 
@@ -92,7 +92,7 @@ class ArmEstimate(AnyEstimate):
     @property
     def tip_covariance(self) -> NDArray[np.float64] | None:
         """Of the tip's (x, z, tilt); None where an angle is not assured."""
-        if not self.known.is_assured:
+        if not self.is_sure:
             return None
         return self.state.tip_covariance(self.settings.tension_stddev)
 
@@ -132,7 +132,7 @@ class ArmEstimate(AnyEstimate):
     def remarks(self) -> list[Remark]:
         """What is not as it should be, but for `slow_remarks`."""
         found = []
-        if not self.known.is_assured:
+        if not self.is_sure:
             found.append(Remark.LOAD)
         if not all(self.angles_assured):
             found.append(Remark.UNASSURED)
@@ -185,6 +185,6 @@ class ArmEstimate(AnyEstimate):
             'angles_assured': self.angles_assured,
             'bend_angle_stddevs': self.bend_angle_stddevs,
             'tip_stddev': deviations.as_dict()
-            if deviations is not None and self.known.is_assured
+            if deviations is not None and self.is_sure
             else None,
         }

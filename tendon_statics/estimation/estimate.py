@@ -35,6 +35,8 @@ class Sample(NamedTuple):
     """When it was taken, on a clock in s that only goes forward"""
     measured: float = math.nan
     """When it was measured, on any clock in s; NaN if that is not known"""
+    is_confirmed: bool = True
+    """False of the first that a rate is checked of, which may be a spike"""
 
     @property
     def pair(self) -> tuple[float, float]:
@@ -78,6 +80,14 @@ class AnyEstimate(ABC):
     """
 
     known: KnownLoad
+
+    is_confirmed = True
+    """False where the tensions are a first reading that may be a spike"""
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether load and tensions are such that something of it may be assured."""
+        return self.known.is_assured and self.is_confirmed
 
     @property
     @abstractmethod

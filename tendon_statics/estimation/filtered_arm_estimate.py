@@ -36,7 +36,7 @@ class FilteredArmEstimate(ArmEstimate):
     @property
     def bend_angle_stddevs(self) -> tuple[float | None, ...]:
         """Standard deviation of each angle in rad; None where not assured."""
-        if not self.known.is_assured:
+        if not self.is_sure:
             return (None,) * len(self.state.joints)
         return self.state.bend_angle_stddevs
 
@@ -57,7 +57,7 @@ class FilteredArmEstimate(ArmEstimate):
     @property
     def tip_covariance(self) -> NDArray[np.float64] | None:
         """Of the tip's (x, z, tilt); None where an angle is not assured."""
-        return self.state.tip_covariance if self.known.is_assured else None
+        return self.state.tip_covariance if self.is_sure else None
 
     @property
     def tip_interval(self) -> tuple[TipPose, TipPose] | None:

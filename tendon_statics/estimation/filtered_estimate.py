@@ -45,7 +45,7 @@ class FilteredEstimate(Estimate):
     @property
     def angle_assured(self) -> bool:
         """Whether the unit cannot have moved unseen."""
-        return self._assured
+        return self._assured and self.is_confirmed
 
     @property
     def bend_angle_stddev(self) -> float | None:

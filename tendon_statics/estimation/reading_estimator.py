@@ -72,8 +72,7 @@ class ReadingEstimator(ABC, Generic[S, E]):
     def change_settings(self, settings: S) -> str:
         """Go on with other settings; return what is to be said of that, mostly nothing."""
         before, self._settings = self._settings, settings
-        if settings.scales != before.scales:  # What was watched was in other newtons.
-            self._watch = TensionWatch(self._names)
+        self._watch.rescale(before.scales, settings.scales)
         return self._method.change_settings(settings)
 
     # Readings
@@ -124,7 +123,7 @@ class ReadingEstimator(ABC, Generic[S, E]):
         begin = time.monotonic()
         try:
             believed = self._watch.take(tensions, measured, settings.scales, settings.plausibility)
-            sample = Sample(believed, known, now, measured)
+            sample = Sample(believed, known, now, measured, self._watch.is_confirmed)
             estimate = self._followed(sample)
         except ReadingError as error:
             raise self._refused((error.reason, str(error))) from None
@@ -158,13 +157,18 @@ class ReadingEstimator(ABC, Generic[S, E]):
     def _followed(self, sample: Sample) -> E:
         """Work out where it goes; under a load that may be wrong nothing of it is sure."""
         method, known = self._method, sample.known
-        if method.remembers and not known.is_measured:
-            # It stays where it began until the load is known.
-            return method.imagine(sample)
+        if method.remembers and not (known.is_measured and sample.is_confirmed):
+            # It stays where it is until the load is known, and the tensions are no spike.
+            return self._imagined(sample)
         estimate = method.update(sample)
         if not known.is_assured:
             method.doubt()
         return estimate
+
+    def _imagined(self, sample: Sample) -> E:
+        found = self._method.imagine(sample)
+        found.is_confirmed = sample.is_confirmed
+        return found
 
     def take_committed(self) -> list[E]:
         """Return the estimates that will not be taken back, each once, where others may be."""
@@ -193,7 +197,9 @@ class ReadingEstimator(ABC, Generic[S, E]):
         TensionError
             If they do not seat a joint of now.
         """
-        return self._method.again(newest)
+        found = self._method.again(newest)
+        found.is_confirmed = newest.is_confirmed
+        return found
 
     # Staleness
 

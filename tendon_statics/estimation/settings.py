@@ -46,10 +46,17 @@ class Settings(Measuring):
     def doubts(self) -> list[str]:
         """What of the settings does not fit the unit, a sentence each."""
         weight = self.weight
-        return [
-            f'{cable}.max_tension is {scale.max_tension:g} N, {scale.max_tension / weight:.3g} '
-            'times the weight of the unit: a wrong reading below that is believed; set it to '
-            'what the cable is made for'
-            for cable, scale in (('cable_l', self.cable_l), ('cable_s', self.cable_s))
+        named = {'cable_l.max_tension': self.cable_l, 'cable_s.max_tension': self.cable_s}
+        large = {
+            name: scale.max_tension
+            for name, scale in named.items()
             if scale.max_tension > MANY_WEIGHTS * weight > 0.0
+        }
+        if not large:
+            return []
+        limits = ' and '.join(f'{limit:g} N' for limit in sorted(set(large.values())))
+        return [
+            f'{" and ".join(large)} {"are" if len(large) > 1 else "is"} {limits}, up to '
+            f'{max(large.values()) / weight:.3g} times the weight of the unit: a wrong reading '
+            'below that is believed; set it to what the cable is made for'
         ]

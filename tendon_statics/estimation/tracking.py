@@ -38,13 +38,15 @@ class TrackedEstimate(ExactEstimate):
     @property
     def angle_assured(self) -> bool:
         """Whether the unit cannot have moved unseen."""
-        return self.result.angle_assured
+        return self.result.angle_assured and self.is_confirmed
 
     @property
     def bend_angle_stddev(self) -> float | None:
         """Standard deviation in rad of where it slipped to, to first order."""
         settings, covariance = self.settings, self.settings.design_uncertainty
-        if covariance is None or self._brought is None or not self.angle_assured:
+        if not self.angle_assured:
+            return None
+        if covariance is None or self._brought is None:
             return self.result.bend_angle_stddev(settings.tension_stddev)
         return self._brought.bend_angle_stddev(settings.tension_stddev, covariance)
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from .admissible import check_bend_angle
+from .admissible import angles_held, check_bend_angle
 from .design import JointDesign
 from .gradients import TensionGradient, root_gradient
 from .load import UPRIGHT, DeadLoad, Load
@@ -121,7 +121,7 @@ class StickSlipTracker:
     def _move(self, step: _Step) -> Regime:
         """Let the unit slip on the way from the last tensions to these; return how it ends."""
         if self._stays_at_stop(step.margin):
-            return self._come_to_stop(math.copysign(1.0, step.margin))
+            return self._come_to_stop(math.copysign(1.0, step.margin), step.slip)
         regime = Regime.HELD
         for slip in self._way(step):
             margin = slip.margin(self._bend_angle)
@@ -142,10 +142,13 @@ class StickSlipTracker:
             self._before is None or self._before.margin * margin >= 0.0
         )
 
-    def _come_to_stop(self, side: float) -> Regime:
-        self._bend_angle = side * self._design.max_bend_angle
+    def _come_to_stop(self, side: float, slip: Slip) -> Regime:
+        """Put the unit to a stop; if it may have been anywhere, nothing else must hold it."""
+        stop = self._design.max_bend_angle
+        self._bend_angle = side * stop
         self._gradient = NO_GRADIENT
-        self._assured = True
+        if not self._assured:
+            self._assured = not angles_held(slip if slip.side > 0.0 else slip.mirrored(), stop)
         return Regime.DRIVEN_TO_STOP
 
     def _slip(self, slip: Slip) -> Regime:
@@ -156,7 +159,7 @@ class StickSlipTracker:
         start, stop = slip.side * self._bend_angle, self._design.max_bend_angle
         found = slip.brackets(slip.probe(start), slip.probe(stop)) if start < stop else []
         if not found:
-            return self._come_to_stop(slip.side)
+            return self._come_to_stop(slip.side, slip)
         landing, _ = refine(slip, found[0])
         self._bend_angle = slip.side * landing[0]
         self._gradient = root_gradient(slip, slip.point(landing), self._design.relative_lever)

@@ -6,7 +6,7 @@ import math
 import pytest
 from designs import PRELIMINARY
 
-from tendon_statics import BendAngleError, Load, Regime, solve
+from tendon_statics import BendAngleError, Load, Regime, admissible_angles, solve
 from tendon_statics.estimation.settings import Settings
 from tendon_statics.estimation.unit_estimator import KnownLoad, UnitEstimator
 from tendon_statics.physics import UPRIGHT
@@ -145,8 +145,39 @@ def test_it_is_stale_after_the_timeout_once():
 
 def test_a_largest_tension_that_fits_no_such_unit_is_said():
     weight = PRELIMINARY.weight
-    (of_l, of_s) = SETTINGS.doubts
-    assert of_l.startswith(f'cable_l.max_tension is 1000 N, {1000 / weight:.3g} times the weight')
-    assert of_s.startswith('cable_s')
+    (of_both,) = SETTINGS.doubts
+    named = 'cable_l.max_tension and cable_s.max_tension are 1000 N, up to'
+    assert of_both.startswith(f'{named} {1000 / weight:.3g} times the weight')
     fitting = CableScale(max_tension=20.0)
+    (of_s,) = dataclasses.replace(SETTINGS, cable_l=fitting).doubts
+    assert of_s.startswith('cable_s.max_tension is 1000 N')
     assert dataclasses.replace(SETTINGS, cable_l=fitting, cable_s=fitting).doubts == []
+
+
+@pytest.mark.parametrize('estimation', ['tracking', 'filtering'])
+def test_a_first_reading_that_may_be_a_spike_moves_no_unit_and_is_not_assured(estimation):
+    believed = Plausibility(max_rate=10.0)
+    settings = dataclasses.replace(SETTINGS, plausibility=believed)
+    unit = UnitEstimator(settings, estimation)
+    assert not unit.take(*STOP, KNOWN, 0.0, 0.0).angle_assured
+    with pytest.raises(ReadingError):
+        unit.take(*HELD, KNOWN, 0.1, 0.1)
+    found = unit.take(*HELD, KNOWN, 0.2, 0.2)
+    assert found.bend_angle == pytest.approx(0.0, abs=1e-3)
+    assert found.regime is Regime.HELD
+    sound = UnitEstimator(settings, estimation)
+    pairs = enumerate((HELD, HELD))
+    assured = [sound.take(*pair, KNOWN, 0.1, 0.1 * at).angle_assured for at, pair in pairs]
+    assert assured == [False, True]
+
+
+def test_a_stop_tells_where_a_doubted_unit_is_only_if_nothing_else_can_hold_it():
+    """Under 0.2 N and 0.5 N friction holds a unit that is bent towards cable l."""
+    unit = tracking()
+    unit.take(*HELD, KNOWN, 0.0)
+    unit.doubt()
+    found = unit.take(0.2, 0.5, KNOWN, 0.1)
+    assert found.regime is Regime.DRIVEN_TO_STOP
+    assert admissible_angles(PRELIMINARY, 0.2, 0.5)
+    assert not found.angle_assured
+    assert unit.take(*STOP, KNOWN, 0.2).angle_assured

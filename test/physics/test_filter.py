@@ -143,6 +143,17 @@ def test_doubt_lasts_until_a_stop_or_a_measurement():
     assert fed(found, [(1.0, 3.0)] * 200, start=5.0)[-1].assured
 
 
+def test_a_stop_tells_where_a_doubted_unit_is_only_if_nothing_else_can_hold_it():
+    """Under 0.2 N and 0.5 N friction holds a unit that is bent towards cable l."""
+    found = StickSlipFilter(PRELIMINARY, tension_stddev=NOISE)
+    fed(found, [(1.0, 1.5)] * 10)
+    found.doubt()
+    state = fed(found, [(0.2, 0.5)] * 200, start=1.0)[-1]
+    assert state.regime is Regime.DRIVEN_TO_STOP
+    assert not state.assured
+    assert fed(found, [(1.0, 3.0)] * 200, start=2.0)[-1].assured
+
+
 def test_a_bias_that_is_stated_widens_what_is_known():
     ramp = [(3.0, 3.0 + 0.004 * index) for index in range(700)]
     exact = StickSlipFilter(HANGING, tension_stddev=NOISE)

@@ -325,3 +325,15 @@ def test_another_design_takes_over_where_the_unit_is():
     assert tracker.bend_angle == 0.4
     assert tracker.design.max_bend_angle == 0.4
     assert not tracker.update(1.0, 1.5).angle_assured
+
+
+def test_a_stop_tells_where_a_doubted_unit_is_only_if_nothing_else_can_hold_it():
+    """Under 0.2 N and 0.5 N friction holds a unit that is bent towards cable l."""
+    tracker = StickSlipTracker(PRELIMINARY)
+    tracker.doubt()
+    found = tracker.update(0.2, 0.5)
+    assert found.regime is Regime.DRIVEN_TO_STOP
+    assert found.admissible_angles
+    assert not found.angle_assured
+    assert tracker.update(1.0, 3.0).angle_assured
+    assert tracker.update(0.2, 0.5).angle_assured

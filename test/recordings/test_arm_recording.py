@@ -146,12 +146,12 @@ def test_an_arms_recording_is_of_one_length():
 def test_what_looks_wrong_with_an_arms_recording_is_hinted_at():
     ones = np.ones(4)
     pulled = ArmRecording(dict.fromkeys(NAMES, 5000.0 * ones), {2: 40.0 * ones})
-    angle, tensions = arm_hints(pulled, ARM)
+    angle, tensions = arm_hints(pulled, SETTINGS)
     assert '--units bend_angle_2=deg' in angle
     assert 'cables.l_mid.gain' in tensions
     assert 'weight of the arm' in tensions
     assert 'the parameter file has to have' in tensions
-    assert arm_hints(ArmRecording(dict.fromkeys(NAMES, ones)), ARM) == []
+    assert arm_hints(ArmRecording(dict.fromkeys(NAMES, ones)), SETTINGS) == []
 
 
 def test_a_recording_whose_time_goes_back_is_not_followed():

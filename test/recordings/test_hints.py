@@ -9,10 +9,13 @@ from programs import run
 from slips import recording, session, slipping_samples
 
 from tendon_statics import Recording, load_recording
+from tendon_statics.estimation.settings import Settings
 from tendon_statics.files.installed_files import installed_config
 from tendon_statics.recordings.hints import hints
+from tendon_statics.tensions.cable_scale import CableScale
 from tendon_statics.tensions.watch import Plausibility
 
+SETTINGS = Settings(PRELIMINARY)
 SESSION = installed_config('recorded_session.mcap')
 ONES = np.ones(5)
 TIMES = np.arange(5.0)
@@ -32,11 +35,14 @@ TIMES = np.arange(5.0)
         ({'time': 2e4 * TIMES}, 'time [us]'),
         ({'time': 1e7 * TIMES}, 'time [ns]'),
         ({'time': 1e-8 * TIMES}, 'may be a larger one'),
+        ({'time': 1e-5 * TIMES}, 'may be a larger one'),
+        ({'time': 46353.0 + 1e-7 * TIMES}, '--units time=d'),
+        ({'tension_l': 10.0 * ONES, 'tension_s': 15.0 * ONES}, '--units tension=gf'),
     ],
 )
 def test_a_quantity_that_no_unit_has_is_doubted(more, named):
     values = {'tension_l': ONES, 'tension_s': 1.5 * ONES, **more}
-    (hint,) = hints(Recording(**values), PRELIMINARY)
+    (hint,) = hints(Recording(**values), SETTINGS)
     assert named in hint
     assert '\n' not in hint
 
@@ -60,13 +66,13 @@ def test_a_sound_recording_is_not_doubted(more):
     if 'bend_angle' in more and 3.0 in more['bend_angle']:
         values['bend_angle'] = np.r_[np.full(50, 0.1), 3.0]
         values |= {'tension_l': np.ones(51), 'tension_s': np.ones(51)}
-    assert hints(Recording(**values), PRELIMINARY) == []
+    assert hints(Recording(**values), SETTINGS) == []
 
 
 def test_what_is_heavy_for_one_unit_is_light_for_another():
     recording = Recording(100.0 * ONES, 150.0 * ONES)
-    assert hints(recording, PRELIMINARY)
-    assert hints(recording, dataclasses.replace(PRELIMINARY, mass=2.0)) == []
+    assert hints(recording, SETTINGS)
+    assert hints(recording, Settings(dataclasses.replace(PRELIMINARY, mass=2.0))) == []
 
 
 @pytest.mark.parametrize('verb', ['replay', 'track', 'calibrate', 'report', 'plot recording'])
@@ -87,12 +93,14 @@ SPIKE = {'tension_l': [1.0] * 4, 'tension_s': [1.5, 4.194, 1.5, 1.5]}
 def test_a_spike_is_said_with_or_without_times_unless_rates_are_checked():
     for time in (None, [0.0, 0.1, 0.2, 0.3]):
         spiked = Recording(**SPIKE, time=time)
-        (hint,) = hints(spiked, PRELIMINARY)
+        (hint,) = hints(spiked, SETTINGS)
         assert 'tension_s goes from 1.5 N to 4.194 N and back within one sample, 1 times' in hint
-        checked = hints(spiked, PRELIMINARY, Plausibility(max_rate=10.0))
+        checked = hints(
+            spiked, dataclasses.replace(SETTINGS, plausibility=Plausibility(max_rate=10.0))
+        )
         assert checked == ([hint] if time is None else [])
     known = Recording(**SPIKE, faults=['', 'implausible', '', ''])
-    assert hints(known, PRELIMINARY) == []
+    assert hints(known, SETTINGS) == []
 
 
 @pytest.mark.parametrize('seed', range(10))
@@ -100,7 +108,7 @@ def test_slips_sessions_and_noise_have_no_spikes(seed):
     rng = np.random.default_rng(seed)
     slips = slipping_samples(40, rng)
     for sound in (recording(slips), session(slips[:6], rng), load_recording(SESSION)):
-        assert not any('within one sample' in hint for hint in hints(sound, PRELIMINARY))
+        assert not any('within one sample' in hint for hint in hints(sound, SETTINGS))
 
 
 def test_one_spike_among_many_samples_is_found():
@@ -108,5 +116,78 @@ def test_one_spike_among_many_samples_is_found():
     sound = session(slipping_samples(6, rng), rng)
     spiked = sound.tension_l.copy()
     spiked[100] += 12.0
-    (hint,) = hints(dataclasses.replace(sound, tension_l=spiked), PRELIMINARY)
+    (hint,) = hints(dataclasses.replace(sound, tension_l=spiked), SETTINGS)
     assert 'tension_l goes from' in hint
+
+
+def test_milliseconds_at_1_khz_that_are_taken_for_seconds_are_said():
+    values = {'tension_l': np.ones(50), 'tension_s': np.full(50, 1.5)}
+    (hint,) = hints(Recording(**values, time=np.arange(50.0)), SETTINGS)
+    assert hint.startswith('there are 1 s from one sample to the next, longer than input_timeout')
+    assert '--units time=ms' in hint
+    patient = dataclasses.replace(SETTINGS, input_timeout=2.0)
+    assert hints(Recording(**values, time=np.arange(50.0)), patient) == []
+
+
+def test_cables_that_are_said_to_be_strong_may_pull_hard():
+    strong = CableScale(max_tension=30.0)
+    settings = dataclasses.replace(SETTINGS, cable_l=strong, cable_s=strong)
+    assert hints(Recording(10.0 * ONES, 15.0 * ONES), settings) == []
+
+
+@pytest.mark.parametrize('width', [2, 3, 8])
+def test_a_spike_of_several_samples_is_found_if_it_is_brief(width):
+    tension = np.full(100, 1.5)
+    tension[40 : 40 + width] = 4.0 + 0.1 * np.arange(width) % 0.3
+    for time, is_spike in (
+        (None, width <= 3),
+        (0.01 * np.arange(100.0), True),
+        (0.1 * np.arange(100.0), False),  # a pull that may be meant
+    ):
+        found = hints(Recording(np.ones(100), tension, time=time), SETTINGS)
+        assert len(found) == is_spike
+        if is_spike:
+            assert f'tension_s goes from 1.5 N to 4 N and back within {width} samples' in found[0]
+
+
+@pytest.mark.parametrize('stddev', [0.001, 0.005, 0.02, 0.05])
+def test_noise_that_is_said_to_be_far_too_small_is_doubted(stddev):
+    rng = np.random.default_rng(4)
+    time = 0.01 * np.arange(400.0)
+    ramp = 1.5 + 0.5 * np.sin(time)
+    noisy = [values + rng.normal(0.0, 0.02, 400) for values in (ramp, np.ones(400))]
+    found = hints(
+        Recording(*noisy, time=time), dataclasses.replace(SETTINGS, tension_stddev=stddev)
+    )
+    assert len(found) == (stddev < 0.02 / 3.0)
+    if found:
+        assert 'the tensions scatter by about 0.02' in found[0]
+        assert f'tension_stddev is {stddev:g} N' in found[0]
+
+
+@pytest.mark.parametrize('seed', range(5))
+def test_of_slips_and_sessions_no_noise_is_doubted(seed):
+    rng = np.random.default_rng(seed)
+    slips = slipping_samples(40, rng)
+    for sound in (recording(slips), session(slips[:6], rng), load_recording(SESSION)):
+        assert not any('scatter' in hint for hint in hints(sound, SETTINGS))
+
+
+def test_the_noise_that_an_option_says_counts(tmp_path):
+    rng, path = np.random.default_rng(5), tmp_path / 'run.csv'
+    rows = ''.join(f'{0.01 * i},{1 + rng.normal(0, 0.02)},1.5\n' for i in range(50))
+    path.write_text(f'time,tension_l,tension_s\n{rows}')
+    asked = ('replay', path, '--estimation', 'filtering', '--tension-stddev')
+    assert 'tension_stddev is 0.001 N' in run(*asked, 0.001).stdout
+    assert 'scatter' not in run(*asked, 0.02).stdout
+
+
+@pytest.mark.parametrize('verb', ['replay', 'track', 'report'])
+def test_a_largest_tension_that_does_not_fit_the_unit_is_said_once_as_the_node_does(
+    tmp_path, verb
+):
+    path, output = tmp_path / 'run.csv', tmp_path / 'out.html'
+    path.write_text('time,tension_l,tension_s,bend_angle\n0,1,1.5,0.1\n0.1,1,1.5,0.1\n')
+    done = run(verb, path, *(('--output', output) if verb == 'report' else ()))
+    said = done.stdout + done.stderr + (output.read_text() if verb == 'report' else '')
+    assert said.count(SETTINGS.doubts[0]) == 1

@@ -12,6 +12,7 @@ from programs import assert_refused, run
 from pyarrow import parquet
 
 from tendon_statics import CalibrationError, Recording, RecordingError, calibrate
+from tendon_statics.estimation.settings import Settings
 from tendon_statics.recordings.hints import hints
 from tendon_statics.recordings.motion import mark_motion
 from tendon_statics.recordings.reading.load import load_recording
@@ -214,7 +215,7 @@ def test_a_column_that_behaves_like_a_clock_casts_doubt_until_somebody_says_what
     recording = load_recording(path)
     assert recording.time is None
     assert followed(recording).tolist() == [True, False, False, False]
-    (hint,) = hints(recording, PRELIMINARY)
+    (hint,) = hints(recording, Settings(PRELIMINARY))
     assert f'--columns time="{title}"' in hint
     with pytest.raises(RecordingError, match=f'{title}.*--columns time='):
         replay(PRELIMINARY, recording, 'filtering')
@@ -287,7 +288,7 @@ def test_a_row_without_a_time_casts_doubt_and_so_does_the_one_after_it(tmp_path,
 def test_times_that_do_not_advance_are_none(tmp_path, cells):
     recording = load_recording(written(tmp_path, 'time', *cells))
     assert recording.time is None
-    assert '--columns time=TITLE' in hints(recording, PRELIMINARY)[0]
+    assert '--columns time=TITLE' in hints(recording, Settings(PRELIMINARY))[0]
     assert followed(recording).tolist() == [True, False, False]
 
 

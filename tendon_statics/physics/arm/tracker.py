@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..admissible import angles_held
 from ..load import UPRIGHT, Load
 from ..loaded_joint import LoadedJoint
 from ..regime import Regime
@@ -180,13 +181,14 @@ class ArmTracker:
         return side * self._angles[joint] == self._arm.stops[joint]
 
     def _regimes(self, driven: list[Driven], moved: set[int]) -> list[Regime]:
-        """What has become of each joint; one that is pressed on its stop is there for sure."""
+        """What has become of each joint; one that nothing but its stop holds is there for sure."""
         found = []
         for joint, (slip, probe) in enumerate(driven):
             is_beyond = abs(slip.margin_at(probe)) > LIMIT
             if is_beyond and self._leans_on_stop(joint, driven[joint]):
                 found.append(Regime.DRIVEN_TO_STOP)
-                if not self._assured[joint]:
+                towards_s = slip if slip.side > 0.0 else slip.mirrored()
+                if not self._assured[joint] and not angles_held(towards_s, self._arm.stops[joint]):
                     self._be_sure_of(joint)
             else:
                 found.append(Regime.SLIPPING if joint in moved else Regime.HELD)

@@ -21,9 +21,6 @@ Floats = NDArray[np.float64]
 HISTORY = 5000
 """Committed states that are kept"""
 
-SURE = 0.99
-"""Probability of a stop from which on the angle is assured by it"""
-
 LOST = 6.0
 """Deviations of a measured angle from all members above which they are where it says"""
 

@@ -20,6 +20,12 @@ from .members import Step
 
 Floats = NDArray[np.float64]
 
+SURE = 0.99
+"""Probability of a stop above which it tells where the unit is"""
+
+LOOKS = 9
+"""Angles from stop to stop at which it is seen whether friction holds a unit"""
+
 
 class Slips(Protocol):
     """The slip functions of the members of a joint, at the tensions of one sample."""
@@ -122,6 +128,18 @@ class FilterState:
     def angle_assured(self) -> bool:
         """`assured`, as an `Equilibrium` calls it, for what takes either."""
         return self.assured
+
+    @property
+    def is_told_by_stop(self) -> bool:
+        """Whether the unit is at a stop wherever it was, as friction holds it nowhere else."""
+        slips = self.slips
+        if slips is None or self.regime_probabilities[Regime.DRIVEN_TO_STOP] <= SURE:
+            return False
+        slip, stop = slips.driving(), slips.units.max_bend_angle
+        at = [np.full(len(self._angles), share * stop) for share in np.linspace(-1.0, 1.0, LOOKS)]
+        sides = [np.array([of.value(angles) for angles in at]) for of in (slip, slip.mirrored())]
+        beyond = (sides[0] > 0.0).all(axis=0) | (sides[1] > 0.0).all(axis=0)
+        return float(beyond.mean()) > SURE
 
     @cached_property
     def members(self) -> Floats:

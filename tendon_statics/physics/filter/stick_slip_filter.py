@@ -12,11 +12,10 @@ from ..design import JointDesign
 from ..design_uncertainty import DesignUncertainty
 from ..errors import TensionError
 from ..load import UPRIGHT, Load
-from ..regime import Regime
 from ..tensions import Tensions, check_tensions, taut_slip
 from .consistency import Consistency
 from .ensemble import Ensemble, MemberSlips
-from .lagged import SURE, LaggedFilter, check_least, check_stddev, drawn_to
+from .lagged import LaggedFilter, check_least, check_stddev, drawn_to
 from .members import follow
 from .recent import Sample
 from .scores import Boundary, Reading
@@ -168,7 +167,7 @@ class StickSlipFilter(LaggedFilter[FilterState, Floats]):
         )
 
     def _take_for_sure(self, state: FilterState) -> None:
-        if not self._assured and state.regime_probabilities[Regime.DRIVEN_TO_STOP] > SURE:
+        if not self._assured and state.is_told_by_stop:
             self._assured = state.assured = True
 
     def measure(self, bend_angle: float, stddev: float) -> None:

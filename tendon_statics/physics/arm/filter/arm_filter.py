@@ -8,11 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...filter import StickSlipFilter
-from ...filter.lagged import SURE, LaggedFilter, check_least, check_stddev, drawn_to
+from ...filter.lagged import LaggedFilter, check_least, check_stddev, drawn_to
 from ...filter.recent import Sample
 from ...filter.smoothing import Estimate
 from ...load import UPRIGHT, Load
-from ...regime import Regime
 from ..arm import Arm
 from ..cables import Crossing, pair_at, slack_joint, transmitted
 from ..carried import at_tip
@@ -182,10 +181,7 @@ class ArmFilter(LaggedFilter[ArmFilterState, Place]):
 
     def _take_for_sure(self, state: ArmFilterState) -> None:
         for index, joint in enumerate(state.joints):
-            if (
-                not self._assured[index]
-                and joint.regime_probabilities[Regime.DRIVEN_TO_STOP] > SURE
-            ):
+            if not self._assured[index] and joint.is_told_by_stop:
                 self._assured[index] = joint.assured = True
 
     def measure(self, joint: int, bend_angle: float, stddev: float) -> None:

@@ -1,0 +1,65 @@
+"""Where a few values stand out of those before and after them."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .session import Floats
+
+LONGEST = 10
+"""Values of a spike at most"""
+
+UNTIMED = 3
+"""Likewise where no times are known"""
+
+BRIEF = 0.1
+"""s; a longer pull may be meant"""
+
+STANDS_OUT = 3.0
+"""Times the largest other step by which a spike stands out of the values around it at least"""
+
+AGREE = 0.1
+"""Share of a spike's height by which the values before and after it differ at most"""
+
+
+def spikes(values: Floats, least: float, time: Floats | None = None) -> list[tuple[int, int]]:
+    """First place and length of spikes: few values that stand out of those before and after.
+
+    NaN is none. A spike stands out of all steps that are of none, too, or the tensions go in
+    steps that are meant.
+
+    Parameters
+    ----------
+    least : float
+        By which it stands out at least.
+    time : ndarray, optional
+        Of each value in s.
+    """
+    found: list[tuple[int, int, float]] = []
+    taken = np.zeros(len(values), dtype=bool)
+    steps = abs(np.diff(values))
+    of_spikes = np.zeros(len(steps), dtype=bool)
+    for width in range(1, min(_longest(time), len(values) - 2) + 1):
+        inside = np.lib.stride_tricks.sliding_window_view(values[1:-1], width).min(axis=1)
+        before, after = values[: -width - 1], values[width + 1 :]
+        height = np.minimum(inside - before, inside - after)
+        stands = (height > least) & (abs(after - before) <= AGREE * height)
+        for place in (np.flatnonzero(stands) + 1).tolist():
+            if not taken[place : place + width].any():
+                found.append((place, width, float(height[place - 1])))
+                taken[place : place + width] = True
+                of_spikes[place - 1 : place + width] = True
+    others = steps[~of_spikes & np.isfinite(steps)]
+    largest = float(others.max()) if len(others) else math.inf
+    return sorted((place, width) for place, width, high in found if high > STANDS_OUT * largest)
+
+
+def _longest(time: Floats | None) -> int:
+    """How many values a spike has at most; one is never too long."""
+    steps = np.diff(time[np.isfinite(time)]) if time is not None else np.array([])
+    steps = steps[steps > 0.0]
+    if not len(steps):
+        return UNTIMED
+    return int(np.clip(BRIEF / np.median(steps), 1, LONGEST))
