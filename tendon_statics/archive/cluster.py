@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import multiprocessing
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from itertools import islice
+from multiprocessing import forkserver
 from typing import Any, Generic, TypeVar
 
 from ..recordings.errors import one_line
@@ -21,8 +23,21 @@ WAITING = 256
 CONNECT = 10.0
 """s to reach a scheduler"""
 
+LOADED = ('distributed', 'pyarrow.parquet', local_worker.__name__)
+"""Modules that every worker needs"""
+
 T = TypeVar('T')
 R = TypeVar('R')
+
+
+def begin_workers(*modules: str) -> None:
+    """Begin the process that the workers of this machine are forked from.
+
+    It loads what they need, and these modules, while the program itself still gets ready; a worker
+    is then there at once, and none loads anything on its own.
+    """
+    multiprocessing.get_context('forkserver').set_forkserver_preload([*LOADED, *modules])
+    forkserver.ensure_running()
 
 
 @contextmanager
@@ -43,7 +58,7 @@ def connected(workers: int | None = None, scheduler: str | None = None) -> Itera
     RecordingError
         If distributed is missing.
     """
-    (distributed,) = needed('distributed', purpose=PURPOSE)
+    dask, distributed = needed('dask', 'distributed', purpose=PURPOSE)
     if scheduler is not None:
         try:
             client = distributed.Client(scheduler, timeout=CONNECT)
@@ -54,14 +69,15 @@ def connected(workers: int | None = None, scheduler: str | None = None) -> Itera
         with client:
             yield client
         return
-    cluster = distributed.LocalCluster(
-        n_workers=workers or len(os.sched_getaffinity(0)),
-        threads_per_worker=1,
-        processes=True,
-        dashboard_address='127.0.0.1:0',
-        silence_logs='CRITICAL',
-        preload=[local_worker.__name__],
-    )
+    with dask.config.set({'distributed.worker.multiprocessing-method': 'forkserver'}):
+        cluster = distributed.LocalCluster(
+            n_workers=workers or len(os.sched_getaffinity(0)),
+            threads_per_worker=1,
+            processes=True,
+            dashboard_address=None,  # which takes longer to load than all else
+            silence_logs='CRITICAL',
+            preload=[local_worker.__name__],
+        )
     client = distributed.Client(cluster)
     try:
         yield client

@@ -12,7 +12,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from ..archive import PURPOSE
-from ..archive.cluster import Results, connected
+from ..archive.cluster import Results, begin_workers, connected
 from ..archive.dataset import Dataset
 from ..archive.finding import find_recordings
 from ..archive.row import DAMAGED, STATUSES, Row
@@ -86,6 +86,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Find the recordings, have them worked on, write summary and page, say what came of it."""
+    if options.scheduler is None:
+        begin_workers(Study.__module__)
     needed('distributed', 'pyarrow', purpose=PURPOSE)
     unit = unit_from(options)
     check_bend_angle(unit.design, initial_bend_angle_from(options, unit))

@@ -85,11 +85,15 @@ def archive(tmp_path_factory):
     return folder
 
 
+@pytest.fixture(scope='module', autouse=True)
+def forks():
+    """What the tests fork from; begun by an archive, it would not have what others need."""
+    forkserver.ensure_running()
+
+
 @pytest.fixture(scope='module')
 def cluster():
     """Two workers in processes of their own, forked where all is imported already."""
-    # With what the tests fork from; begun by dask, it would not have what those need.
-    forkserver.ensure_running()
     with (
         dask.config.set({'distributed.worker.multiprocessing-method': 'forkserver'}),
         LocalCluster(

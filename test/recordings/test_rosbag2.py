@@ -66,15 +66,29 @@ def test_it_gives_what_the_pure_libraries_give_and_needs_none_of_them(bag):
     assert read(path) == expected
 
 
-def test_a_file_that_it_refuses_is_read_by_the_pure_libraries_as_far_as_it_goes(tmp_path, rosbag2):
+@pytest.mark.parametrize(
+    ('damaged', 'why'),
+    [
+        (lambda content: content[:-3000], 'its end is missing'),
+        (lambda content: content[:-3000] + bytes(3000), 'its end is missing'),
+        (lambda content: b'X' + content[1:], 'rosbag2 refuses it'),
+    ],
+    ids=['cut', 'zeros', 'its beginning'],
+)
+def test_a_damaged_file_is_read_by_the_pure_libraries_as_far_as_it_goes(
+    tmp_path, rosbag2, damaged, why
+):
+    """Of a file that was cut rosbag2 may read the beginning, and say nothing."""
     path = tmp_path / 'torn.mcap'
-    path.write_bytes(SESSION.read_bytes()[:-3000])
-    with pytest.raises(RecordingError, match=r'rosbag2 refuses it: .*pip install mcap rosbags'):
+    path.write_bytes(damaged(SESSION.read_bytes()))
+    with pytest.raises(RecordingError, match=rf'{why}.*pip install mcap rosbags'):
         load_recording(path)
     rosbag2.setattr(rosbag2_file, 'is_installed', lambda _: True)
     for library in PURE:
         rosbag2.delitem(sys.modules, library)
-    assert load_recording(path).damage
+    recording = load_recording(path)
+    assert bool(recording.damage) == (why == 'its end is missing')
+    assert len(recording) > 10
 
 
 def test_a_type_of_another_version_is_left_to_the_definitions_in_the_bag(tmp_path, rosbag2):

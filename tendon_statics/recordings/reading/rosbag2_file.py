@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator
 from functools import cache
 from importlib import import_module
@@ -13,7 +14,7 @@ from typing import Any
 from ..errors import RecordingError, one_line
 from ..libraries import needed
 from .bag_record import PURPOSE, UNKNOWN_TYPE, Record
-from .mcap_file import mcap_records
+from .mcap_file import MAGIC, mcap_records
 
 ROSBAG2 = 'rosbag2_py'
 
@@ -32,7 +33,7 @@ def is_installed(library: str) -> bool:
 def rosbag2_records(path: Path, types: dict[str, str], damage: list[str]) -> Iterator[Record]:
     """Read the messages of an MCAP file, as `mcap_records` does.
 
-    rosbag2 reads a file that is sound, or not at all. One that it refuses is read by the pure
+    rosbag2 says of a file that was cut nothing, or refuses it. Such a file is read by the pure
     libraries, down to whatever can be read of it, if they are installed.
 
     Raises
@@ -40,6 +41,9 @@ def rosbag2_records(path: Path, types: dict[str, str], damage: list[str]) -> Ite
     RecordingError
         If it is no MCAP file.
     """
+    if not _has_end(path):
+        yield from _by_pure_libraries(path, types, damage, 'its end is missing')
+        return
     library = import_module(ROSBAG2)
     reader = library.SequentialReader()
     try:
@@ -69,6 +73,12 @@ def rosbag2_records(path: Path, types: dict[str, str], damage: list[str]) -> Ite
             damage.append(f'it is truncated or damaged ({one_line(error)})')
             return
         yield Record(topic, known.get(topic, UNKNOWN_TYPE), '', log_time, data)
+
+
+def _has_end(path: Path) -> bool:
+    with path.open('rb') as file:
+        file.seek(-min(len(MAGIC), path.stat().st_size), os.SEEK_END)
+        return file.read() == MAGIC
 
 
 def _by_pure_libraries(
