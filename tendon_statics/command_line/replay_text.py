@@ -105,8 +105,8 @@ def _angle_facts(summary: ReplaySummary) -> Facts:
         facts.append(
             (
                 'not assured',
-                f'{summary.unsure} of these angles: after a slack cable, a gap or the like the '
-                'unit may have moved',
+                f'{summary.unsure} of these angles: after a slack cable, a gap, noise that could '
+                'slip it or the like the unit may have moved',
             )
         )
     error = summary.error

@@ -112,8 +112,9 @@ class Tracking(Method):
         """Whether a unit that may be anywhere is driven to the stop, whatever the noise."""
         if result.regime is not Regime.DRIVEN_TO_STOP:
             return False
-        # Least driven, and held most.
-        noise = math.copysign(LARGEST * self.settings.tension_stddev, result.bend_angle or 0.0)
+        # By the noise that drives it least, so many deviations of both tensions together.
+        deviation = self.settings.tension_stddev / math.sqrt(2.0)
+        noise = math.copysign(LARGEST * deviation, result.bend_angle or 0.0)
         pair = result.tension_l + noise, result.tension_s - noise
         try:
             return not admissible_angles(self.settings.design, *pair, result.load)
