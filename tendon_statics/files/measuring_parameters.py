@@ -129,8 +129,8 @@ PLAUSIBILITY = (
     NumberParameter(
         'saturation_count',
         _BELIEVED.saturation_count,
-        'readings in a row at the largest so far, from which on a cell counts as saturated; 0: '
-        'not checked',
+        'readings in a row at the largest or smallest so far, from which on a cell counts as '
+        'saturated; 0: not checked',
         minimum=0,
         maximum=1_000_000,
     ),

@@ -134,3 +134,37 @@ def test_the_load_of_the_unit_is_that_of_its_settings_unless_another_is_given():
     for load, degrees in ((None, 7.140), (UPRIGHT, 17.140)):
         found = replay(PRELIMINARY, recording, settings=settings, load=load)
         assert np.degrees(found.bend_angle[0]) == pytest.approx(degrees, abs=5e-4)
+
+
+@pytest.mark.parametrize(
+    ('settings', 'tension_s', 'assured'),
+    [
+        (dataclasses.replace(SETTINGS, tension_stddev=0.05), [1.1, 1.85, 1.1, 3.0], [1, 1, 1, 1]),
+        (
+            dataclasses.replace(SETTINGS, plausibility=Plausibility(max_rate=10.0)),
+            [3.0, 1.1, 1.1, 1.2],
+            [0, 0, 0, 0],  # one was refused, but none has moved the unit
+        ),
+        (
+            dataclasses.replace(SETTINGS, plausibility=Plausibility(max_rate=10.0)),
+            [1.1, 1.1, 3.0, 1.1],
+            [0, 1, 0, 0],
+        ),
+    ],
+)
+def test_of_noise_and_spikes_node_and_replay_say_the_same(settings, tension_s, assured):
+    unit, of_node = UnitEstimator(settings, 'tracking'), []
+    times = [0.1 * place for place in range(4)]
+    for time, tension in zip(times, tension_s, strict=True):
+        try:
+            result = unit.take(1.0, tension, KnownLoad(UPRIGHT), time, time)
+        except ReadingError as error:
+            of_node.append((error.reason.value, False))
+        else:
+            of_node.append(('valid', result.angle_assured))
+    found = tracked(times, [1.0] * 4, tension_s, settings)
+    of_replay = (found.validity.tolist(), found.angle_assured.tolist())
+    assert list(zip(*of_replay, strict=True)) == of_node
+    assert [is_assured for _, is_assured in of_node] == [bool(one) for one in assured]
+    if settings.plausibility.is_checked:
+        assert found.bend_angle[-1] == 0.0
