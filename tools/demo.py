@@ -103,7 +103,10 @@ def play_until_sound(listener: Audience) -> DiagnosticStatus:
 
     The first report tells of the second in which the estimator was found, too.
     """
-    for _ in range(MOST_SESSIONS):
+    for attempt in range(MOST_SESSIONS):
+        if attempt:
+            why = ''.join(f': {status.message}' for status in listener.statuses[-1:])
+            say(f'once more, since this machine was too busy for a sound second{why}')
         play(listener, 'demo_tensions.csv', times=4)
         for status in listener.statuses:
             if status.level == DiagnosticStatus.OK:

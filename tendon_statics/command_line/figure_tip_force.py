@@ -70,7 +70,7 @@ def draw_tip_forces(drawing: Figure, recording: Recording, found: TipForces) -> 
         color=SKY,
         alpha=0.5,
         linewidth=0.0,
-        label=f'friction lets one know ({100.0 * found.level:g} %)',
+        label=f'forces that explain it ({100.0 * found.level:g} %)',
     )
     limit = found.at_limit & found.known
     if limit.any():

@@ -128,7 +128,7 @@ def _numbers(estimate: Any) -> Iterator[tuple[str, str]]:
     yield 'bend angle', angle
     if regime_of(estimate) is not Regime.SLACK:
         bands = pairs_of(list(estimate.admissible_angles))
-        yield 'friction can hold', ', '.join(map(_degrees, bands)) or 'nowhere'
+        yield 'can hold at', ', '.join(map(_degrees, bands)) or 'nowhere'
     yield 'pressure', pressure
     yield 'slip margin', _number(estimate.slip_margin, '+.3f', '')
     if math.isfinite(estimate.consistency):

@@ -132,8 +132,8 @@ def test_words_and_drawing_are_one(figure, state, when):
     assert 'nan' not in words
     assert 'inf ' not in words
     assert close(arcs['interval'], degrees_in(rows['bend angle']))
-    assert close(arcs['band'], degrees_in(rows.get('friction can hold', '')))
-    assert (rows.get('friction can hold') == 'nowhere') == (
+    assert close(arcs['band'], degrees_in(rows.get('can hold at', '')))
+    assert (rows.get('can hold at') == 'nowhere') == (
         not arcs['band'] and estimate.regime != Regime.SLACK
     )
     assert (NOT_DETERMINED in words) <= bool(arcs['band'])
