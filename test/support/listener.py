@@ -199,13 +199,13 @@ class Listener(EstimatorClient):
         wait_for(f'an answer to {data}', lambda: len(self.regimes) > before)
         return self.regimes[before]
 
+    def has_all_estimates(self) -> bool:
+        """Whether the estimate of every answer has come."""
+        return len(self.estimates) >= sum(regime != 'invalid' for regime in self.regimes)
+
     def newest_estimate(self) -> Any:
         """Wait for the estimate of the last answer, which is the last thing said of it."""
-
-        def come() -> bool:
-            return len(self.estimates) >= sum(regime != 'invalid' for regime in self.regimes)
-
-        wait_for('the estimate', come)
+        wait_for('the estimate', self.has_all_estimates)
         return self.estimates[-1]
 
     def call_once(self, name: str, request: Any) -> Any:
