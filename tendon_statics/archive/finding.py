@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import stat
 from collections.abc import Collection, Iterator, Sequence
 from fnmatch import fnmatch
 from pathlib import Path
@@ -27,8 +28,9 @@ def find_recordings(folders: Sequence[Path], exclude: Collection[str] = ()) -> l
     """Find all recordings below folders, in the order of their names.
 
     A bag's folder is one recording, and so is each file that lies elsewhere. What is hidden and
-    what lies in a data set of an archive is passed over; a folder that cannot be entered is given
-    as if it were a recording, so that it is named with all that cannot be read.
+    what lies in a data set of an archive is passed over. A folder that cannot be entered, and a
+    link to nothing that may have led to recordings, are given as if they were recordings, so that
+    they are named with all that cannot be read.
 
     Parameters
     ----------
@@ -52,14 +54,14 @@ def find_recordings(folders: Sequence[Path], exclude: Collection[str] = ()) -> l
     # A recording that was named itself is called after the folder that it lies in.
     bases = {root: root.parent if walk == [root] else root for root, walk in walks.items()}
     labels = _labels([*dict.fromkeys(bases.values())])
-    found: dict[Path, Found] = {}
+    found: dict[str, Found] = {}
     for root, walk in walks.items():
         base = bases[root]
         for path in walk:
             below = path.relative_to(base).as_posix()
             if not any(fnmatch(below, one) or fnmatch(path.name, one) for one in exclude):
                 name = f'{labels[base]}/{below}'.rstrip('/.')
-                found.setdefault(path.resolve(), Found(short_enough(name), path))
+                found.setdefault(os.path.realpath(path), Found(short_enough(name), path))
     if not found:
         named = ', '.join(map(str, folders))
         raise RecordingError(f'there is no recording below {named}; they end in {_endings()}')
@@ -68,15 +70,23 @@ def find_recordings(folders: Sequence[Path], exclude: Collection[str] = ()) -> l
 
 def _walk(path: Path, entered: set[Path]) -> Iterator[Path]:
     """Give the paths of recordings at and below a path; links are followed, not in a circle."""
-    if not path.is_dir():
-        if path.is_file() and is_recording_file(path):  # and no pipe, which never ends
+    try:
+        mode = path.stat().st_mode
+    except OSError:
+        if is_recording_file(path) or _may_be_folder(path):
+            yield path
+        return
+    if not stat.S_ISDIR(mode):
+        if stat.S_ISREG(mode) and is_recording_file(path):  # and no pipe, which never ends
             yield path
         return
     real = path.resolve()
-    if real in entered or is_dataset(path):
+    if real in entered:
         return
     entered.add(real)
     try:
+        if is_dataset(path):
+            return
         # Links last: what is there itself is called by its own path.
         there = sorted(
             (entry for entry in path.iterdir() if not entry.name.startswith('.')),
@@ -91,6 +101,11 @@ def _walk(path: Path, entered: set[Path]) -> Iterator[Path]:
     for entry in there:
         if not (of_bag and is_bag_file(entry)):
             yield from _walk(entry, entered)
+
+
+def _may_be_folder(path: Path) -> bool:
+    """Whether what cannot be looked at may be a folder: it does not end as other files do."""
+    return not path.suffix[1:2].isalpha()
 
 
 def _labels(bases: Sequence[Path]) -> dict[Path, str]:

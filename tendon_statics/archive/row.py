@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from ..recordings.recording import summary_of_damage
+from ..recordings.session import summary_of_damage
 
 WHOLE, DAMAGED = 'whole', 'damaged'
 REFUSED, UNREADABLE, FAILED = 'refused', 'unreadable', 'failed'

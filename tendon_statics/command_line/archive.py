@@ -19,6 +19,7 @@ from ..archive.row import DAMAGED, STATUSES, Row
 from ..archive.work import Outcome, Work
 from ..physics.admissible import check_bend_angle
 from ..recordings.libraries import needed
+from ..recordings.reading.units import OF_UNIT
 from .archive_page import write_archive_page
 from .archive_study import Study, what_counts
 from .calibration_options import add_calibration_options, check_calibration_options
@@ -32,7 +33,7 @@ from .options import (
 )
 from .progress import with_progress
 from .recording_options import add_reading_options, table_from, topics_from
-from .replay import add_estimation_options, initial_bend_angle_from
+from .replay_options import add_estimation_options, initial_bend_angle_from
 from .tables import Facts, fact_lines
 
 
@@ -89,7 +90,7 @@ def run(options: argparse.Namespace) -> int:
     unit = unit_from(options)
     check_bend_angle(unit.design, initial_bend_angle_from(options, unit))
     topics_from(options, unit)
-    table_from(options)
+    table_from(options, OF_UNIT)
     if options.calibrate:
         check_calibration_options(options)
     counts = what_counts(options, unit)

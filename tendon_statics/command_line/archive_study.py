@@ -22,7 +22,7 @@ from ..recordings.replay.summary import summary_of
 from .calibration_options import add_calibration_options, calibration_from
 from .options import UsageError
 from .recording_options import recording_from
-from .replay import replay_from
+from .replay_options import replay_from
 from .replay_text import invalid_text
 
 NOT_OF_RESULTS = (

@@ -6,12 +6,14 @@ import argparse
 from importlib import import_module
 
 ARM_VERBS = {
-    'track': 'follow the arm, with memory, through the tensions of a CSV file',
+    'track': 'follow the arm, with memory, through a recording, and print every sample',
+    'replay': 'the same, with a summary: what each joint did, and how far off measured angles are',
+    'report': 'a recorded session of the arm as one HTML file',
     'margins': 'how near every joint is to slipping, under one set of tensions',
     'order': 'the order in which the joints slip while the tensions change',
     'invert': 'the tensions that bring one joint to its limit first',
     'tip-force': 'the forces at the tip with which friction can hold all joints where they are',
-    'plot': 'a figure of the arm going through the tensions of a CSV file',
+    'plot': 'a figure of the arm going through a recording',
 }
 """Verb → what it does; the module ``arm_...`` has the rest"""
 

@@ -8,8 +8,7 @@ from collections.abc import Sequence
 
 from ..files.arm_file import load_arm
 from ..physics import UPRIGHT, Arm, Load
-from ..recordings.reading.arm_table import ArmTable, load_arm_table
-from .options import UsageError, add_tilt_options
+from .options import UsageError, add_tilt_options, finite
 
 
 def add_arm_options(parser: argparse.ArgumentParser) -> None:
@@ -28,11 +27,10 @@ def add_arm_options(parser: argparse.ArgumentParser) -> None:
     add_tilt_options(group)
     group.add_argument(
         '--tip-force',
-        type=float,
+        type=finite,
         nargs=2,
-        default=(0.0, 0.0),
         metavar=('X', 'Z'),
-        help='force in N at the end of the last unit',
+        help='force in N at the end of the last unit; default: none',
     )
 
 
@@ -48,25 +46,26 @@ def add_tensions_option(parser: argparse.ArgumentParser, option: str, descriptio
     )
 
 
-def add_table_option(parser: argparse.ArgumentParser) -> None:
-    """Add the table of tensions."""
-    parser.add_argument(
-        'data',
-        metavar='CSV',
-        help='tensions in N at the base, one column a cable, titled with its name, one row a '
-        'sample; a column time in s is taken along; - is standard input',
-    )
-
-
 def arm_from(options: argparse.Namespace) -> tuple[Arm, list[float], Load]:
     """Return the arm, where its joints are in rad, and the load."""
     arm = load_arm(options.arm)
-    degrees = options.bend_angles_deg
-    angles = [0.0] * len(arm.units) if degrees is None else [math.radians(d) for d in degrees]
+    angles = bend_angles_from(options) or [0.0] * len(arm.units)
+    return arm, angles, load_from(options)
+
+
+def bend_angles_from(options: argparse.Namespace) -> list[float]:
+    """Return where the joints are at first in rad, from the base on; empty if it is not said."""
+    return [math.radians(degrees) for degrees in options.bend_angles_deg or ()]
+
+
+def load_from(
+    options: argparse.Namespace, direction: Sequence[float] = UPRIGHT.gravity_direction
+) -> Load:
+    """Return what acts beside the cables; `direction` is that of gravity if it is not said."""
+    tip = tuple(options.tip_force or (0.0, 0.0))
     if options.base_tilt_deg is not None:
-        return arm, angles, Load.tilted(math.radians(options.base_tilt_deg), options.tip_force)
-    direction = options.gravity_direction or UPRIGHT.gravity_direction
-    return arm, angles, Load(tuple(direction), tuple(options.tip_force))
+        return Load.tilted(math.radians(options.base_tilt_deg), tip)
+    return Load(tuple(options.gravity_direction or direction), tip)
 
 
 def tensions_from(named: Sequence[tuple[str, float]]) -> dict[str, float]:
@@ -84,17 +83,14 @@ def tensions_from(named: Sequence[tuple[str, float]]) -> dict[str, float]:
     return dict(named)
 
 
-def table_from(options: argparse.Namespace, arm: Arm) -> ArmTable:
-    """Return the table of tensions."""
-    return load_arm_table(options.data, arm.cable_names)
-
-
 def _named_tension(text: str) -> tuple[str, float]:
     name, equals, value = text.rpartition('=')
     try:
         tension = float(value)
     except ValueError:
         tension = math.nan
-    if not (equals and name and math.isfinite(tension)):
-        raise argparse.ArgumentTypeError(f'it is {text!r}, needed is CABLE=N, say s_tip=1.5')
-    return name, tension
+    if equals and name and math.isfinite(tension):
+        return name, tension
+    comma = name and ',' in value
+    hint = f'decimals take a point: {name}={value.replace(",", ".")}' if comma else 'say s_tip=1.5'
+    raise argparse.ArgumentTypeError(f'it is {text!r}, needed is CABLE=N, {hint}')

@@ -7,26 +7,21 @@ import math
 
 from ..physics import ArmTipForce, arm_tip_force
 from .arm_options import add_arm_options, add_tensions_option, arm_from, tensions_from
-from .options import add_format_option, finite, print_json
+from .options import add_format_option, print_json
 from .tables import fact_lines, markdown_table
 from .tip_force import finite_ends, intervals_text
+from .tip_force_options import add_direction_option
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the verb takes."""
     add_arm_options(parser)
     add_tensions_option(parser, '--tensions', 'the tensions at the base')
-    group = parser.add_argument_group(
-        'force at the tip', 'that is looked for; it adds to what the load has'
-    )
-    group.add_argument(
-        '--direction',
-        type=finite,
-        nargs='+',
+    group = add_direction_option(
+        parser,
+        'on the end of the last unit, fixed in the frame of the base: X towards cables s, Z along '
+        'the first unit at zero bend',
         required=True,
-        metavar=('X', 'Z'),
-        help='unit vector along which it acts on the end of the last unit, fixed in the frame of '
-        'the base: X towards cables s, Z along the first unit at zero bend',
     )
     group.add_argument(
         '--at-stop',

@@ -20,7 +20,9 @@ from ..recordings.recording import Recording
 from ..recordings.samples import usable
 from .options import (
     UsageError,
+    add_bend_angle_stddev_option,
     add_tension_stddev_option,
+    bend_angle_stddev_from,
     tension_stddev_from,
 )
 from .recorded_load import recorded_load
@@ -65,13 +67,7 @@ def add_calibration_options(parser: argparse.ArgumentParser) -> None:
         help='every sample is about to slip, as is taken of a recording without states and times',
     )
     add_tension_stddev_option(parser, default=None)
-    parser.add_argument(
-        '--bend-angle-stddev-deg',
-        type=float,
-        default=0.5,
-        metavar='DEG',
-        help='standard deviation of the angle; default: %(default)s',
-    )
+    add_bend_angle_stddev_option(parser)
     parser.add_argument(
         '--pressure-stddev',
         type=float,
@@ -167,7 +163,7 @@ def calibration_from(options: argparse.Namespace, unit: Unit, recording: Recordi
             'data': states_from(options, usable(recording, unit.settings)),
             'fit': _fit(options),
             'tension_stddev': tension_stddev_from(options, unit),
-            'bend_angle_stddev': math.radians(options.bend_angle_stddev_deg),
+            'bend_angle_stddev': bend_angle_stddev_from(options, unit),
             'pressure_stddev': options.pressure_stddev,
             'load': load,
         }

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..physics import UPRIGHT, EquilibriumBatch, Load, Regime, paper
 from ..physics.batch import REGIME_CODES
-from ..recordings.recording import Floats
+from ..recordings.session import Floats
 from .options import add_design_option
 from .pair_options import setting_title
 from .sweep import add_grid_options, grid_from

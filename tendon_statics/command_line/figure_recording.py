@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..estimation.regimes import INVALID, REGIME_COLOURS
 from ..physics import JointDesign
 from ..recordings.replay.result import Replay
+from ..recordings.session import Floats, Session
 from .figures import BLUE, GREY, VERMILION
 from .options import add_design_option, add_load_options, add_tension_stddev_option
 from .recording_options import (
@@ -18,7 +21,7 @@ from .recording_options import (
     report_notes,
     unit_and_recording,
 )
-from .replay import add_estimation_options, replay_from
+from .replay_options import add_estimation_options, replay_from
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,10 +57,7 @@ def draw(drawing: Figure, options: argparse.Namespace) -> int:
 def draw_replay(drawing: Figure, design: JointDesign, replayed: Replay) -> None:
     """Draw tensions, angle, slip margin and regime, one above the other over time."""
     recording = replayed.recording
-    times = recording.time
-    label = 'time [s]'
-    if times is None or recording.disorder:
-        times, label = np.arange(float(len(recording))), 'sample'
+    times, label = places_of(recording)
     of_tensions, of_angle, of_margin, of_regime = drawing.subplots(
         4, sharex=True, height_ratios=(3.0, 4.0, 2.5, 0.6)
     )
@@ -87,6 +87,13 @@ def draw_replay(drawing: Figure, design: JointDesign, replayed: Replay) -> None:
     _draw_regimes(of_regime, times, replayed)
     of_regime.set_xlabel(label)
     drawing.align_ylabels()
+
+
+def places_of(recording: Session) -> tuple[Floats, str]:
+    """Where along an axis the samples stand, and what the axis is: time, or their number."""
+    if recording.time is None or recording.disorder:
+        return np.arange(float(len(recording))), 'sample'
+    return recording.time, 'time [s]'
 
 
 def _draw_angles(axes: Axes, times: Any, replayed: Replay) -> None:
@@ -125,22 +132,12 @@ def _draw_angles(axes: Axes, times: Any, replayed: Replay) -> None:
 
 def _draw_regimes(axes: Axes, times: Any, replayed: Replay) -> None:
     """Draw a strip with the colour of the regime of each sample until the next."""
-    handles = []
-    ends = np.append(times[1:], times[-1])
-    for regime, colour in {**_COLOURS, INVALID: 'black'}.items():
-        where = replayed.regime == regime
-        if not where.any():
-            continue
-        # Runs of one regime are drawn as one bar.
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], where, [False]]).astype(int)))
-        bars = [
-            (times[first], ends[after - 1] - times[first]) for first, after in edges.reshape(-1, 2)
-        ]
-        handles.append(
-            axes.broken_barh(
-                bars, (0.0, 1.0), color=colour, linewidth=0.6, label=regime.replace('_', ' ')
-            )
+    handles = [
+        axes.broken_barh(
+            bars, (0.0, 1.0), color=colour, linewidth=0.6, label=regime.replace('_', ' ')
         )
+        for regime, colour, bars in regime_bars(times, replayed.regime)
+    ]
     axes.set_yticks([])
     axes.grid(visible=False)
     axes.set_ylabel('regime', rotation=0, ha='right', va='center')
@@ -152,6 +149,28 @@ def _draw_regimes(axes: Axes, times: Any, replayed: Replay) -> None:
         frameon=False,
         handlelength=1.2,
     )
+
+
+def regime_bars(
+    times: Any, regimes: NDArray[np.str_]
+) -> Iterator[tuple[str, str, list[tuple[float, float]]]]:
+    """Each regime that is there, its colour, and the times from which and for how long it lasts.
+
+    Runs of one regime are one bar.
+    """
+    ends = np.append(times[1:], times[-1])
+    for regime, colour in {**_COLOURS, INVALID: 'black'}.items():
+        where = regimes == regime
+        if where.any():
+            edges = np.flatnonzero(np.diff(np.concatenate([[False], where, [False]]).astype(int)))
+            yield (
+                regime,
+                colour,
+                [
+                    (times[first], ends[after - 1] - times[first])
+                    for first, after in edges.reshape(-1, 2)
+                ],
+            )
 
 
 def _legend(axes: Axes) -> None:

@@ -11,6 +11,7 @@ from ..recordings.recording import Recording
 from ..recordings.replay.tip_forces import TipForces
 from .figures import BLUE, GREY, ORANGE, SKY, VERMILION
 from .options import (
+    add_bend_angle_stddev_option,
     add_design_option,
     add_load_options,
     add_tension_stddev_option,
@@ -22,7 +23,7 @@ from .recording_options import (
     report_notes,
     unit_and_recording,
 )
-from .tip_force_options import add_bend_angle_stddev_option, add_line_options
+from .tip_force_options import add_line_options
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -22,8 +22,8 @@ def setting_facts(design: JointDesign, load: Load) -> Facts:
     return facts
 
 
-def load_text(load: Load) -> str:
-    """Say what acts beside the cables."""
+def load_text(load: Load, tip: str = '') -> str:
+    """Say what acts beside the cables, and where the tip force does: `tip`, or its distance."""
     _, across, _ = load.gravity_direction
     parts = []
     if tilt := load.base_tilt:
@@ -36,7 +36,9 @@ def load_text(load: Load) -> str:
         parts.append(f'{share:.4g} % of gravity in the plane of bending')
     if any(load.tip_force):
         x, z = load.tip_force
-        parts.append(f'tip force {x:+g} N in X and {z:+g} N in Z at {load.tip_distance:g} m')
+        parts.append(
+            f'tip force {x:+g} N in X and {z:+g} N in Z at {tip or f"{load.tip_distance:g} m"}'
+        )
     return ', '.join(parts) or 'upright, nothing at the tip'
 
 

@@ -25,7 +25,7 @@ VERBS = {
     'report': 'a recorded session and its calibration as one HTML file',
     'tare': 'the biases of load cells from a recording of slack cables',
     'sweep': 'a map of the answers over both cable tensions, as a file',
-    'track': 'follow the unit, with memory, through the tensions of a CSV file',
+    'track': 'a replay with memory, as a table of where the unit is at each sample',
     'tip-force': 'the forces at the tip that explain tensions and angle, as far as friction lets '
     'one know',
     'invert': 'the tensions at which the unit is about to slip at a bend angle',
@@ -37,11 +37,20 @@ VERBS = {
 """Verb → what it does; the module of the same name, with _ for -, has the rest."""
 
 
+class _Help(argparse.HelpFormatter):
+    """Help that shows a vector by its parts, ``X Z``, also where it is taken with a Y of 0."""
+
+    def _format_args(self, action: argparse.Action, default_metavar: str) -> str:
+        if action.nargs == '+' and isinstance(action.metavar, tuple):
+            return ' '.join(action.metavar)
+        return super()._format_args(action, default_metavar)
+
+
 class _Parser(argparse.ArgumentParser):
     """A parser whose errors are one line, and which takes -1e-3 for a number."""
 
     def __init__(self, *args: Any, **more: Any) -> None:
-        super().__init__(*args, **more)
+        super().__init__(*args, **{'formatter_class': _Help, **more})
         # Python before 3.14 knows -0.001 only, and takes -1e-3 for an option.
         self._negative_number_matcher = re.compile(
             r'-(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$', re.IGNORECASE
@@ -62,7 +71,7 @@ class _Version(argparse.Action):
 
 
 def with_word_first(arguments: Sequence[str], words: Iterable[str]) -> list[str]:
-    """Put the first of some words, a verb or a figure, before the options that precede it.
+    """Put the first of some words, verbs or figures, before the options that precede it.
 
     So options count in any place. Values of those that every verb has may be called as a word.
     """
@@ -94,8 +103,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             module = import_module(f'{__package__}.{verb.replace("-", "_")}')
             module.add_arguments(subparser)
             subparser.set_defaults(run=module.run)
-            if verb == 'plot':
-                arguments[1:] = with_word_first(arguments[1:], module.FIGURES)
+            if verb in ('plot', 'arm'):
+                words = module.FIGURES if verb == 'plot' else module.ARM_VERBS
+                arguments[1:] = with_word_first(arguments[1:], words)
     with suppress(ValueError):  # Only the main thread may.
         # So that a half-written file is removed.
         signal.signal(signal.SIGTERM, _interrupt)

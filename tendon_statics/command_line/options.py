@@ -11,9 +11,7 @@ from pathlib import Path
 from ..files.design_file import default_design_path
 from ..files.unit_file import Unit, load_unit
 from ..physics import UPRIGHT, JointDesign, Load, TendonStaticsError
-
-TENSION_STDDEV = 0.01
-"""N"""
+from ..physics.deviations import BEND_ANGLE_STDDEV, TENSION_STDDEV
 
 
 class UsageError(TendonStaticsError):
@@ -43,7 +41,12 @@ def unit_from(options: argparse.Namespace) -> Unit:
 
 def design_file_and_node(options: argparse.Namespace) -> tuple[Path, str]:
     """Return the design file, and the full name of the estimator in it, empty if not said."""
-    return Path(options.design or default_design_path()), _full_name(options.node)
+    return design_path(options), _full_name(options.node)
+
+
+def design_path(options: argparse.Namespace) -> Path:
+    """Return the design file that ``--design`` names, or the installed default."""
+    return Path(options.design or default_design_path())
 
 
 def design_name(options: argparse.Namespace) -> str:
@@ -107,6 +110,23 @@ def tension_stddev_of(options: argparse.Namespace, unit: Unit) -> float | None:
 def tension_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
     """Return the same, or the default where there is none."""
     return tension_stddev_of(options, unit) or TENSION_STDDEV
+
+
+def add_bend_angle_stddev_option(parser: argparse.ArgumentParser) -> None:
+    """Add ``--bend-angle-stddev-deg DEG``."""
+    parser.add_argument(
+        '--bend-angle-stddev-deg',
+        type=_deviation_or_0,
+        metavar='DEG',
+        help='standard deviation of a measured angle in degrees; default: '
+        f'measured_bend_angle_stddev of the design file, or {math.degrees(BEND_ANGLE_STDDEV):g}',
+    )
+
+
+def bend_angle_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
+    """Return the option, if there is one, or what the design file says, or the default, in rad."""
+    degrees = getattr(options, 'bend_angle_stddev_deg', None)
+    return unit.settings.measured_bend_angle_stddev if degrees is None else math.radians(degrees)
 
 
 def add_load_options(parser: argparse.ArgumentParser) -> None:
@@ -198,6 +218,13 @@ def deviation(text: str) -> float:
         value = math.nan
     if not 0.0 < value < math.inf:
         raise argparse.ArgumentTypeError(f'it is {text!r}, allowed is a finite number above 0')
+    return value
+
+
+def _deviation_or_0(text: str) -> float:
+    value = finite(text)
+    if value < 0.0:
+        raise argparse.ArgumentTypeError(f'it is {text!r}, allowed is 0 or more')
     return value
 
 

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import argparse
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from datetime import datetime, timedelta, timezone
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from ..files.design_file import default_design_path
-from ..recordings.recording import Recording
+from ..recordings.session import Session
 from .tables import Facts
 
-INTERNAL = ('command', 'run', 'verb')
+INTERNAL = ('command', 'run', 'verb', 'run_arm', 'arm_verb')
 """Attributes of the options that nobody has typed by themselves"""
 
 CHUNK = 2**20
@@ -23,21 +22,28 @@ CHUNK = 2**20
 EPOCH = datetime(1970, 1, 1, tzinfo=timezone.utc)
 
 
-def origin_facts(options: argparse.Namespace, recording: Recording) -> Facts:
-    """Return command, version, date of the recording, checksums and all options."""
-    design = Path(options.design or default_design_path())
+def origin_facts(
+    options: argparse.Namespace, recording: Session, designs: Sequence[Path]
+) -> Facts:
+    """Return command, version, date of the recording, checksums and all options.
+
+    Parameters
+    ----------
+    designs : sequence of Path
+        Files that say what was recorded.
+    """
     return [
         ('command', options.command),
         ('version', f'tendon_statics {version("tendon_statics")}'),
         ('recorded', recorded_on(recording)),
         *((f'SHA-256 of {file.name}', sha256(file)) for file in files_of(Path(options.data))),
-        (f'SHA-256 of {design.name}', sha256(design)),
+        *((f'SHA-256 of {design.name}', sha256(design)) for design in designs),
         ('options', ', '.join(f'{name} = {_shown(value)}' for name, value in _chosen(options))),
         ('random numbers', 'none are drawn, so there is no seed'),
     ]
 
 
-def recorded_on(recording: Recording) -> str:
+def recorded_on(recording: Session) -> str:
     """Return when the first sample was, in UTC; or that the recording does not tell."""
     if not recording.time_origin or recording.time is None or not len(recording):
         return 'not known: the recording has no date'

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-import math
 
 import numpy as np
 
 from ..files.unit_file import Unit
 from ..recordings.recording import Recording
 from ..recordings.replay.tip_forces import TipForces, tip_forces
-from .options import tension_stddev_from
+from .options import bend_angle_stddev_from, tension_stddev_from
 from .progress import with_progress
 from .recorded_load import recorded_load
 from .tables import Facts
@@ -40,7 +39,7 @@ def recorded_tip_forces(
         dataclasses.replace(unit.settings, tension_stddev=tension_stddev_from(options, unit)),
         **line._asdict(),
         load=recorded_load(options, unit, bare),
-        bend_angle_stddev=math.radians(options.bend_angle_stddev_deg),
+        bend_angle_stddev=bend_angle_stddev_from(options, unit),
         design_covariance=unit.uncertainty,
         level=options.level,
         most=most,

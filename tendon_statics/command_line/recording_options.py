@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from ..files.cable_parameters import TENSION_SOURCES
@@ -20,8 +21,10 @@ from ..recordings.reading.topics import (
     FORCE_COMPONENTS,
     BagTopics,
 )
+from ..recordings.reading.units import OF_UNIT, Quantities
 from ..recordings.recording import Recording
 from ..recordings.scaling import of_unit
+from ..recordings.session import Session
 from .options import unit_from
 from .progress import with_progress
 
@@ -45,7 +48,7 @@ def add_recording_options(parser: argparse.ArgumentParser) -> None:
 def add_reading_options(parser: argparse.ArgumentParser) -> None:
     """Add what says where in a bag or table the numbers are."""
     _add_bag_options(parser.add_argument_group('of a bag'))
-    _add_table_options(parser.add_argument_group('of a table'))
+    add_table_options(parser, 'tension_l=Fz1,tension_s=Fz2', 'tension=mN,bend_angle=deg')
 
 
 def _add_bag_options(bag: argparse._ArgumentGroup) -> None:
@@ -112,9 +115,10 @@ def _add_bag_options(bag: argparse._ArgumentGroup) -> None:
     bag.add_argument(
         '--max-skew',
         type=float,
-        default=DEFAULTS.max_skew,
         metavar='S',
-        help='by which messages that belong together may be apart; default: %(default)s',
+        help='by which messages that belong together may be apart; default: '
+        f'{DEFAULTS.max_skew}, and of the two tensions of a pair that of the design file, or '
+        f'{DEFAULTS.pair_skew}',
     )
     bag.add_argument(
         '--clock',
@@ -125,7 +129,9 @@ def _add_bag_options(bag: argparse._ArgumentGroup) -> None:
     )
 
 
-def _add_table_options(table: argparse._ArgumentGroup) -> None:
+def add_table_options(parser: argparse.ArgumentParser, columns: str, units: str) -> None:
+    """Add what says where in a table the numbers are, with examples of columns and units."""
+    table = parser.add_argument_group('of a table')
     table.add_argument(
         '--separator',
         metavar='CHARACTER',
@@ -139,15 +145,14 @@ def _add_table_options(table: argparse._ArgumentGroup) -> None:
         type=_pairs,
         default={},
         metavar='NAME=TITLE,...',
-        help='titles of columns, say tension_l=Fz1,tension_s=Fz2',
+        help=f'titles of columns, say {columns}',
     )
     table.add_argument(
         '--units',
         type=_pairs,
         default={},
         metavar='NAME=UNIT,...',
-        help='units of columns, say tension=mN,bend_angle=deg; default: those in brackets in the '
-        'titles, or SI',
+        help=f'units of columns, say {units}; default: those in brackets in the titles, or SI',
     )
     table.add_argument(
         '--skip-rows',
@@ -177,12 +182,13 @@ def recording_from(
     options: argparse.Namespace, unit: Unit, path: Path, progress: Progress = with_progress
 ) -> Recording:
     """Read a recording of a unit as the options say, with tensions in N."""
-    topics, table = topics_from(options, unit), table_from(options)
+    topics, table = topics_from(options, unit), table_from(options, OF_UNIT)
     return of_unit(load_recording(path, topics, table, progress=progress), unit)
 
 
 def topics_from(options: argparse.Namespace, unit: Unit) -> BagTopics:
     """Return where in a bag the numbers are, by the options or the unit's file."""
+    skew = options.max_skew
     return BagTopics(
         tensions=options.tensions_topic,
         tension_source=options.tension_source or unit.get('tension_source'),
@@ -200,14 +206,14 @@ def topics_from(options: argparse.Namespace, unit: Unit) -> BagTopics:
         tip_wrench=options.tip_wrench_topic
         or (TIP_WRENCH if unit.get('tip_wrench') is True else None),
         state=options.state_topic,
-        max_skew=options.max_skew,
-        tension_skew=unit.get('max_skew'),
+        max_skew=DEFAULTS.max_skew if skew is None else skew,
+        tension_skew=unit.get('max_skew') if skew is None else skew,
         clock=options.clock,
     )
 
 
-def table_from(options: argparse.Namespace) -> TableOptions:
-    """Return what a table looks like, by the options."""
+def table_from(options: argparse.Namespace, quantities: Quantities) -> TableOptions:
+    """Return what a table of some quantities looks like, by the options."""
     return TableOptions(
         separator=options.separator,
         decimal=options.decimal,
@@ -216,10 +222,11 @@ def table_from(options: argparse.Namespace) -> TableOptions:
         skip_rows=options.skip_rows,
         encoding=options.encoding,
         rate=options.rate,
+        quantities=quantities,
     )
 
 
-def report_damage(recording: Recording) -> int:
+def report_damage(recording: Session) -> int:
     """Name on stderr what could not be read; return the exit code: 1 if there was such, else 0."""
     if not recording.damage:
         return 0
@@ -233,7 +240,12 @@ def report_damage(recording: Recording) -> int:
 
 def report_notes(unit: Unit, recording: Recording) -> None:
     """Name on stderr how it was read and what looks wrong, for verbs whose output is a table."""
-    for text in (*recording.notes, *hints(recording, unit.design, unit.settings.plausibility)):
+    say_notes(recording, hints(recording, unit.design, unit.settings.plausibility))
+
+
+def say_notes(recording: Session, hints: Sequence[str]) -> None:
+    """Name on stderr how it was read, and the hints."""
+    for text in (*recording.notes, *hints):
         print(f'tendon-statics: {recording.name}: {text}', file=sys.stderr)
 
 

@@ -11,6 +11,7 @@ from ..recordings.hints import hints
 from ..recordings.recording import Recording
 from ..recordings.replay.result import Replay
 from ..recordings.replay.summary import ReplaySummary, summary_of
+from ..recordings.session import Session
 from .load_text import setting_facts
 from .tables import Facts
 
@@ -20,7 +21,7 @@ def replay_facts(replay: Replay, unit: Unit, design: JointDesign) -> Facts:
     summary = summary_of(replay)
     invalid = invalid_text(summary)
     return [
-        *_recording_facts(replay.recording, summary),
+        *recording_facts(replay.recording, summary),
         *reading_facts(replay.recording, unit, design),
         *setting_facts(design, replay.load),
         ('estimation', replay.estimation),
@@ -40,7 +41,8 @@ def reading_facts(recording: Recording, unit: Unit, design: JointDesign) -> Fact
     ]
 
 
-def _recording_facts(recording: Recording, summary: ReplaySummary) -> Facts:
+def recording_facts(recording: Session, summary: ReplaySummary) -> Facts:
+    """What a recording is: its name, samples, times and rate."""
     facts = [('recording', f'{recording.name}: {summary.samples} samples')]
     if summary.untimed:
         facts.append(('without time', f'{summary.untimed} samples'))

@@ -38,6 +38,7 @@ from .options import (
     add_design_option,
     add_load_options,
     design_name,
+    design_path,
     say_written,
     tension_stddev_from,
     tension_stddev_of,
@@ -46,7 +47,7 @@ from .origin import origin_facts
 from .page import fact_table, paragraph, table, warning, write_page
 from .recorded_tip_force import recorded_tip_forces, tip_force_facts
 from .recording_options import add_recording_options, report_damage, unit_and_recording
-from .replay import add_estimation_options, initial_bend_angle_from, replay_from
+from .replay_options import add_estimation_options, initial_bend_angle_from, replay_from
 from .replay_text import replay_facts
 from .report_text import (
     DISTANCES,
@@ -90,7 +91,7 @@ def run(options: argparse.Namespace) -> int:
     except (CalibrationError, RecordingError) as error:
         design, of = start, design_name(options)
         fitted = ['<h2>Calibration</h2>', warning(f'Nothing could be fitted: {error}')]
-        note = f'tendon-statics: {path} has no calibration: {error}'
+        note = f'tendon-statics: the report is written, but has no calibration: {error}'
     else:
         calibration = fit.calibration
         design, of = calibration.design or start, FITTED
@@ -109,7 +110,7 @@ def run(options: argparse.Namespace) -> int:
         '<h2>Design</h2>',
         _design_table(start, design),
         '<h2>How to make it again</h2>',
-        fact_table(origin_facts(options, recording)),
+        fact_table(origin_facts(options, recording, [design_path(options)])),
     ]
     write_page(path, f'Recorded session {recording.name}', parts)
     say_written(path, options)

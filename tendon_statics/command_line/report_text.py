@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 
+from ..estimation.arm_settings import ArmSettings
 from ..files.estimator_parameters import ESTIMATIONS
 from ..recordings.recording import Recording
+from ..recordings.replay.arm_result import ArmReplay
 from ..recordings.replay.result import Replay
 
 ESTIMATION_DEFAULT = (
@@ -90,3 +92,28 @@ def error_meaning(
         'what that leaves open: measured angles outside of it say that the model, its parameters '
         f'or the start are wrong. {same}'
     ).rstrip()
+
+
+def arm_meaning(replayed: ArmReplay, settings: ArmSettings) -> str:
+    """Say what the numbers of each joint of an arm tell, and what not."""
+    start = ', '.join(f'{math.degrees(angle):.4g}' for angle in settings.start)
+    told = (
+        f'The arm is followed from {start} deg (--bend-angles-deg), sample by sample; a joint is '
+        'at rest within its friction, and all that are beyond theirs slip together. After a slack '
+        'cable, a gap or a sample that is not valid a joint may have moved unseen; its angle is '
+        'not assured until it meets a stop. '
+    )
+    if any(joint.error is not None for joint in replayed.joints):
+        told += (
+            'Measured angles are used for nothing but comparison: the error is that of the '
+            'samples that are assured. '
+        )
+    if replayed.estimation == 'filtering':
+        return (
+            f'{told}Its tensions are taken to have noise of {settings.tension_stddev:g} N. The '
+            'intervals are what that leaves open.'
+        )
+    return (
+        f'{told}Each sample is believed: noise that seems to slip a joint is in the angles of all '
+        'that follow.'
+    )

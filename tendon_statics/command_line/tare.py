@@ -67,8 +67,7 @@ def run(options: argparse.Namespace) -> int:
     slack = _between(recording, options.start, options.end)
     try:
         tares = tare(
-            slack.tension_l.tolist(),
-            slack.tension_s.tolist(),
+            {'cable_l': slack.tension_l.tolist(), 'cable_s': slack.tension_s.tolist()},
             (unit.cable_l.bias, unit.cable_s.bias),
             tension_stddev_from(options, unit),
         )
@@ -117,7 +116,7 @@ def _between(recording: Recording, start: float | None, end: float | None) -> Re
     return recording.part(within)
 
 
-def _text(unit: Unit, slack: Recording, tares: tuple[CableTare, CableTare]) -> str:
+def _text(unit: Unit, slack: Recording, tares: list[CableTare]) -> str:
     rows = [
         (
             of.cable,

@@ -9,11 +9,13 @@ from typing import Any
 from ..physics import TipForce, tip_force
 from .load_text import load_dict, setting_facts
 from .options import (
+    add_bend_angle_stddev_option,
     add_design_option,
     add_format_option,
     add_load_options,
     add_tension_options,
     add_tension_stddev_option,
+    bend_angle_stddev_from,
     finite,
     load_from,
     print_json,
@@ -21,7 +23,7 @@ from .options import (
     unit_from,
 )
 from .tables import fact_lines
-from .tip_force_options import add_bend_angle_stddev_option, add_line_options, line_from
+from .tip_force_options import add_line_options, line_from
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -58,7 +60,7 @@ def run(options: argparse.Namespace) -> None:
     """Print the intervals, exact and under noise."""
     unit = unit_from(options)
     load, line = load_from(options, unit), line_from(options, unit)
-    stddev = tension_stddev_from(options, unit)
+    stddev, sensor = tension_stddev_from(options, unit), bend_angle_stddev_from(options, unit)
 
     def ask(**noise: Any) -> TipForce:
         return tip_force(
@@ -77,7 +79,7 @@ def run(options: argparse.Namespace) -> None:
     exact = ask()
     noisy = ask(
         tension_stddev=stddev,
-        bend_angle_stddev=math.radians(options.bend_angle_stddev_deg),
+        bend_angle_stddev=sensor,
         design_covariance=unit.uncertainty,
     )
     if options.format == 'json':
@@ -95,7 +97,7 @@ def run(options: argparse.Namespace) -> None:
             }
         )
         return
-    noise = f'{stddev:g} N on each tension, {options.bend_angle_stddev_deg:g} deg'
+    noise = f'{stddev:g} N on each tension, {math.degrees(sensor):g} deg'
     if unit.uncertainty is not None:
         noise += ', and the uncertainty of the design'
     facts = [

@@ -7,10 +7,7 @@ import math
 from typing import NamedTuple
 
 from ..files.unit_file import Unit
-from .options import UsageError, deviation, finite
-
-BEND_ANGLE_STDDEV_DEG = 0.5
-"""As of the verbs that calibrate"""
+from .options import UsageError, finite
 
 LEVEL = 0.95
 
@@ -25,17 +22,10 @@ class Line(NamedTuple):
 
 def add_line_options(parser: argparse.ArgumentParser, *, required: bool) -> None:
     """Add ``--direction``, ``--distance`` and ``--level``."""
-    group = parser.add_argument_group(
-        'force at the tip', 'that is looked for; it adds to what the load has'
-    )
-    group.add_argument(
-        '--direction',
-        type=finite,
-        nargs='+',
+    group = add_direction_option(
+        parser,
+        'on the unit, fixed in the joint frame: X towards cable s, Z along the unit at zero bend',
         required=required,
-        metavar=('X', 'Z'),
-        help='unit vector along which it acts on the unit, fixed in the joint frame: X towards '
-        'cable s, Z along the unit at zero bend',
     )
     group.add_argument(
         '--distance',
@@ -54,15 +44,22 @@ def add_line_options(parser: argparse.ArgumentParser, *, required: bool) -> None
     )
 
 
-def add_bend_angle_stddev_option(parser: argparse.ArgumentParser) -> None:
-    """Add ``--bend-angle-stddev-deg``."""
-    parser.add_argument(
-        '--bend-angle-stddev-deg',
-        type=deviation,
-        default=BEND_ANGLE_STDDEV_DEG,
-        metavar='DEG',
-        help='standard deviation of the measured angle in degrees; default: %(default)s',
+def add_direction_option(
+    parser: argparse.ArgumentParser, where: str, *, required: bool
+) -> argparse._ArgumentGroup:
+    """Add ``--direction X Z``, in the frame that is said; return its group."""
+    group = parser.add_argument_group(
+        'force at the tip', 'that is looked for; it adds to what the load has'
     )
+    group.add_argument(
+        '--direction',
+        type=finite,
+        nargs='+',
+        required=required,
+        metavar=('X', 'Z'),
+        help=f'unit vector along which it acts {where}',
+    )
+    return group
 
 
 def line_from(options: argparse.Namespace, unit: Unit) -> Line:

@@ -1,4 +1,4 @@
-"""``tendon-statics track``: follow the unit through a recording of tensions."""
+"""``tendon-statics track``: a replay with memory, as a table of where the unit is."""
 
 from __future__ import annotations
 
@@ -8,51 +8,61 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from ..recordings.replay.estimates import replay
-from ..recordings.replay.table_output import write_csv
-from .options import add_design_option, add_load_options
+from ..recordings.replay.table_output import write_csv, write_table
+from .options import say_written
 from .progress import with_progress
-from .recorded_load import recorded_load
-from .recording_options import (
-    add_recording_options,
-    report_damage,
-    report_notes,
-    unit_and_recording,
-)
-from .replay import add_initial_bend_angle_option, initial_bend_angle_from
+from .recording_options import report_damage
+from .replay_options import Replayed, add_replay_options, replayed
+from .tables import fact_lines
+
+ESTIMATIONS = ('tracking', 'filtering')
+"""Those that follow a unit; by default it is tracked, also with a file for equilibrium"""
+
+ENDINGS = ('.csv', '.parquet')
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the verb takes."""
-    add_recording_options(parser)
-    add_initial_bend_angle_option(parser)
-    add_load_options(parser)
-    add_design_option(parser)
+    add_replay_options(parser, ENDINGS, ESTIMATIONS)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Print a row for each sample: angle in rad, regime, margin, certainty."""
-    unit, recording = unit_and_recording(options)
-    tracked = replay(
-        unit.design,
-        recording,
-        'tracking',
-        settings=unit.settings,
-        load=recorded_load(options, unit, recording),
-        initial_bend_angle=initial_bend_angle_from(options, unit),
-        progress=with_progress,
-    )
+    """Print a row for each sample, or write it, and say what there is to say of all.
+
+    Beside a printed table the summary is for a terminal; a script is told what it may have to
+    mend, and nothing else.
+    """
+    found = replayed(options, ENDINGS, ESTIMATIONS)
+    if options.output is None:
+        write_csv(sys.stdout, _columns(found))
+        if sys.stderr.isatty():
+            sys.stdout.flush()
+            print(f'\n{fact_lines(found.facts)}', file=sys.stderr)
+        else:
+            for title, text in found.facts:
+                if title in ('read', 'warning'):
+                    print(f'tendon-statics: {found.recording.name}: {text}', file=sys.stderr)
+    else:
+        write_table(options.output, _columns(found), with_progress)
+        print(fact_lines(found.facts))
+        say_written(options.output, options)
+    return report_damage(found.recording)
+
+
+def _columns(found: Replayed) -> dict[str, NDArray[Any]]:
+    """Return the table: when, at which tensions, where."""
+    recording, followed = found.recording, found.replay
     columns: dict[str, NDArray[Any]] = {}
     if recording.time is not None:
         columns['time'] = recording.time
     columns |= {
         'tension_l': recording.tension_l,
         'tension_s': recording.tension_s,
-        'bend_angle': tracked.bend_angle,
-        'regime': tracked.regime,
-        'slip_margin': tracked.slip_margin,
-        'angle_assured': tracked.angle_assured,
+        'bend_angle': followed.bend_angle,
+        'regime': followed.regime,
+        'slip_margin': followed.slip_margin,
+        'angle_assured': followed.angle_assured,
     }
-    write_csv(sys.stdout, columns)
-    report_notes(unit, recording)
-    return report_damage(recording)
+    if followed.interval is not None:
+        columns['bend_angle_low'], columns['bend_angle_high'] = followed.interval
+    return columns if found.tips is None else columns | found.tips.columns()

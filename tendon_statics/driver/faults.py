@@ -17,23 +17,29 @@ LAG = 1_000_000
 class Reading(NamedTuple):
     """What the driver says at one time."""
 
-    tensions: tuple[float, float]
-    """T_l and T_s in N"""
+    tensions: tuple[float, ...]
+    """Of each cable in N"""
     stamp: int
     """ns"""
     fault: Fault
     cable: int
-    """the one that the fault befalls, if it befalls one: 0 is cable l, 1 is cable s"""
+    """the one that the fault befalls, if it befalls one, counted from 0"""
 
 
 class FaultMaker:
     """Makes readings out of tensions, one after the other.
 
     Which fault befalls the k-th reading depends on the settings and on k only.
+
+    Parameters
+    ----------
+    cables
+        How many there are.
     """
 
-    def __init__(self, settings: FaultSettings) -> None:
+    def __init__(self, settings: FaultSettings, cables: int = 2) -> None:
         self._settings = settings
+        self._cables = cables
         self._faults = [fault for fault in Fault if settings.probability(fault) > 0.0]
         self._bounds = list(itertools.accumulate(map(settings.probability, self._faults)))
         self._random = random.Random(settings.seed)
@@ -45,13 +51,13 @@ class FaultMaker:
         self._stamp = 0
         self._newest_sound: int | None = None
 
-    def reading(self, tensions: tuple[float, float], now: int) -> Reading:
+    def reading(self, tensions: tuple[float, ...], now: int) -> Reading:
         """Return the next reading.
 
         Parameters
         ----------
         tensions
-            True T_l and T_s in N.
+            True ones of all cables in N.
         now
             Time in ns. Readings at one and the same time get stamps 1 ns apart.
         """
@@ -71,11 +77,14 @@ class FaultMaker:
                 stamp = self._newest_sound
         if fault in (Fault.NONE, Fault.SLACK):
             self._newest_sound = stamp
-        return Reading((values[0], values[1]), stamp, fault, cable)
+        return Reading(tuple(values), stamp, fault, cable)
 
     def _next_fault(self) -> tuple[Fault, int]:
         # Drawn in an episode too, so that its length does not change what comes after it.
-        place, cable = bisect(self._bounds, self._random.random()), self._random.randrange(2)
+        place, cable = (
+            bisect(self._bounds, self._random.random()),
+            self._random.randrange(self._cables),
+        )
         if self._left_of_episode > 0:
             self._left_of_episode -= 1
             return self._episode

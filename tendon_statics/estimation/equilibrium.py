@@ -73,5 +73,5 @@ class EachPair(Method):
     def imagine(self, sample: Sample) -> PairEstimate:
         """Solve a pair of tensions."""
         settings, known = self.settings, sample.known
-        result = solve(settings.design, sample.tension_l, sample.tension_s, known.load)
+        result = solve(settings.design, *sample.pair, known.load)
         return PairEstimate(result, known, settings)

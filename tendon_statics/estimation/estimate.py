@@ -26,16 +26,21 @@ class KnownLoad(NamedTuple):
 
 
 class Sample(NamedTuple):
-    """A pair of tensions that is believed, and what is known with it."""
+    """The tensions of all cables that are believed, and what is known with them."""
 
-    tension_l: float
-    """N, 0 of a slack cable, as `tension_s`"""
-    tension_s: float
+    tensions: tuple[float, ...]
+    """N, 0 of a slack cable; of a unit those of cables l and s"""
     known: KnownLoad
     time: float
     """When it was taken, on a clock in s that only goes forward"""
     measured: float = math.nan
     """When it was measured, on any clock in s; NaN if that is not known"""
+
+    @property
+    def pair(self) -> tuple[float, float]:
+        """Those of cables l and s of a unit in N."""
+        tension_l, tension_s = self.tensions
+        return tension_l, tension_s
 
 
 class Remark(Enum):
@@ -63,7 +68,42 @@ class Remark(Enum):
         return self in (Remark.UNEXPLAINED, Remark.NOISE)
 
 
-class Estimate(ABC):
+class AnyEstimate(ABC):
+    """What is said after a set of tensions, of a unit or of an arm.
+
+    Attributes
+    ----------
+    known : KnownLoad
+        What acted beside the cables.
+    """
+
+    known: KnownLoad
+
+    @property
+    @abstractmethod
+    def summary(self) -> str:
+        """What has become of it, in a word or few, for people."""
+
+    @property
+    @abstractmethod
+    def remarks(self) -> list[Remark]:
+        """What is not as it should be."""
+
+    @abstractmethod
+    def as_dict(self) -> dict[str, Any]:
+        """Return it by name, ready for JSON; what is not known is None."""
+
+    @property
+    def slow_remarks(self) -> list[Remark]:
+        """What else is not, which takes too long to look at each time; a report looks at one."""
+        return []
+
+    def place_of(self, _remark: Remark) -> str:
+        """Return of which part a remark is, for people; empty if there is but one."""
+        return ''
+
+
+class Estimate(AnyEstimate):
     """What is said of a unit; what is not known is None, or NaN. Angles are in rad.
 
     What follows from the angle is worked out when it is asked for.
@@ -104,6 +144,11 @@ class Estimate(ABC):
         self.regime = regime
         self.tension_l, self.tension_s = tensions
         self.bend_angle = bend_angle
+
+    @property
+    def summary(self) -> str:
+        """The regime."""
+        return self.regime.value
 
     @property
     def design(self) -> JointDesign:

@@ -40,7 +40,7 @@ class FilteredEstimate(Estimate):
         self.measured = measured
         self.is_provisional = state.provisional
         self.consistency = state.consistency
-        self._assured = state.angle_assured and known.is_assured
+        self._assured = state.assured and known.is_assured
 
     @property
     def angle_assured(self) -> bool:

@@ -82,17 +82,17 @@ class Filtering(Method):
         for _ in self._committed_now():
             pass  # Nobody wanted what the sample before has committed.
         time = self._clock.time(sample)
-        state = self._filter.update(*sample[:2], time, sample.known.load)
+        state = self._filter.update(*sample.pair, time, sample.known.load)
         if state.bend_angle is not None:
             self._here = state
             self._waiting.append((time, sample.measured))
-        self._assured = state.angle_assured
+        self._assured = state.assured
         self._newest = self._estimate(state, sample.known, sample.measured)
         return self._newest
 
     def imagine(self, sample: Sample) -> FilteredEstimate:
         """Work out where a pair of tensions would take the unit."""
-        state = self._new_filter().update(*sample[:2], 0.0, sample.known.load)
+        state = self._new_filter().update(*sample.pair, 0.0, sample.known.load)
         return self._estimate(state, sample.known, sample.measured)
 
     def again(self, sample: Sample) -> Estimate:

@@ -7,7 +7,7 @@ from collections import Counter
 from enum import IntEnum
 
 from ..tensions.reason import Reason
-from .estimate import Estimate, Remark
+from .estimate import AnyEstimate, Remark
 
 
 class Level(IntEnum):
@@ -22,17 +22,26 @@ class Level(IntEnum):
 class Health:
     """Counts what happens, since the start and since the last periodic report.
 
-    Every message received is used in a pair that was solved, dropped for a reason, or, of those
-    with one cable each, still waiting for its partner. What is about neither cable is none of
-    them. Times are those of a steady clock, in s.
+    Every message received is used in a set of tensions that was solved, dropped for a reason, or,
+    of those with a part of the cables, still waiting for its partner. What is about no cable is
+    none of them. Times are those of a steady clock, in s.
 
     Parameters
     ----------
     counts_lost : bool
         Whether it is seen how many are lost on the way; else no number is given.
+    solved_are, foreign_are : str
+        What reports call those that were solved, and those about no cable.
     """
 
-    def __init__(self, *, counts_lost: bool = True) -> None:
+    def __init__(
+        self,
+        *,
+        counts_lost: bool = True,
+        solved_are: str = 'pairs solved',
+        foreign_are: str = 'messages about neither cable',
+    ) -> None:
+        self._words = solved_are, foreign_are
         self.counts_lost = counts_lost
         self.received = 0
         self.solved = 0
@@ -43,7 +52,7 @@ class Health:
         self.stale = False
         self._since = time.monotonic()
         self._newest: float | None = None
-        self._regime = ''
+        self.newest: AnyEstimate | None = None
         self._rate: float | None = None
         self._logged: set[Remark] = set()
         self._to_log: list[Remark] = []
@@ -54,6 +63,7 @@ class Health:
         self._lost_before = self.lost
         self._dropped_before = self.dropped.copy()
         self._remarks: Counter[Remark] = Counter()
+        self._at_a_look: list[Remark] = []
         self._solve_time = self._longest_solve = 0.0
         self._longest_lag = 0.0
         self._offset = 0.0
@@ -69,20 +79,30 @@ class Health:
             return Level.STALE
         return Level.WARN if self._is_warned else Level.OK
 
-    def note_estimate(self, estimate: Estimate, solve_time: float) -> None:
-        """Count a pair that was solved, in so many seconds."""
+    def note_estimate(self, estimate: AnyEstimate, solve_time: float) -> None:
+        """Count a set of tensions that was solved, in so many seconds."""
         self.solved += 1
         self.stale = False
         self._newest = time.monotonic()
-        self._regime = estimate.regime.value
+        self.newest = estimate
         self._solve_time += solve_time
         self._longest_solve = max(self._longest_solve, solve_time)
         for remark in estimate.remarks:
             self._remarks[remark] += 1
-            self._is_warned = True
-            if remark.is_logged and remark not in self._logged:
-                self._logged.add(remark)
-                self._to_log.append(remark)
+            self._note(remark)
+
+    def _note(self, remark: Remark) -> None:
+        self._is_warned = True
+        if remark.is_logged and remark not in self._logged:
+            self._logged.add(remark)
+            self._to_log.append(remark)
+
+    def look_closer(self) -> None:
+        """Look at the newest estimate for what takes too long to be looked at in each."""
+        if self.newest is not None and not self.stale:
+            self._at_a_look = self.newest.slow_remarks
+            for remark in self._at_a_look:
+                self._note(remark)
 
     def count(self, remark: Remark) -> int:
         """How many estimates of the period had a remark."""
@@ -132,22 +152,23 @@ class Health:
         return None if self._newest is None else time.monotonic() - self._newest
 
     @property
-    def regime(self) -> str:
-        """Regime of the newest tensions; empty if there are none yet."""
-        return self._regime
+    def summary(self) -> str:
+        """What the newest tensions mean, in a word or few; empty if there are none yet."""
+        return '' if self.newest is None else self.newest.summary
 
     def values(self) -> dict[str, str]:
         """What was counted and measured, by what it is."""
         age, solved = self.age, self.solved - self._solved_before
+        solved_are, foreign_are = self._words
         return {
-            'regime of newest tensions': self._regime,
+            'regime of newest tensions': self.summary,
             'age of newest tensions [s]': '' if age is None else f'{age:.3f}',
             'rate [Hz]': '' if self._rate is None else f'{self._rate:.1f}',
             'mean solve time [ms]': f'{self._solve_time / solved * 1e3:.3f}' if solved else '',
             'longest solve time [ms]': f'{self._longest_solve * 1e3:.3f}' if solved else '',
             'messages received': str(self.received),
-            'messages about neither cable': str(self.foreign),
-            'pairs solved': str(self.solved),
+            foreign_are: str(self.foreign),
+            solved_are: str(self.solved),
             'messages lost on the way': str(self.lost) if self.counts_lost else 'not counted',
             **{f'dropped: {reason.value}': str(self.dropped[reason]) for reason in Reason},
             'last drop': self.last_drop,
@@ -179,8 +200,14 @@ class Health:
                 'are not set alike, or messages that are old'
             )
         findings += [
-            f'{remark.value} ({self._remarks[remark]} of {solved})'
+            f'{remark.value}{self._place_of(remark)} ({self._remarks[remark]} of {solved})'
             for remark in Remark
             if self._remarks[remark]
         ]
+        findings += [f'{remark.value}{self._place_of(remark)}' for remark in self._at_a_look]
         return findings
+
+    def _place_of(self, remark: Remark) -> str:
+        """Say of which part the newest estimate has a remark, if it has several parts."""
+        place = '' if self.newest is None else self.newest.place_of(remark)
+        return f': {place}' if place else ''

@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from typing import ClassVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 from ..physics import JointDesign
 from .estimate import Estimate, Sample
+from .measuring import Measuring
 from .settings import Settings
 
+S = TypeVar('S', bound=Measuring)
+E = TypeVar('E')
 
-class Method(ABC):
-    """Says of each pair of tensions where the unit is; those with memory know where it was.
+
+class WayOfEstimating(ABC, Generic[S, E]):
+    """Says of each set of tensions where what they move is; those with memory know where it was.
+
+    What they move is one unit, see `Method`, or an arm.
 
     Parameters
     ----------
@@ -22,32 +28,32 @@ class Method(ABC):
     Raises
     ------
     BendAngleError
-        If a unit that is remembered cannot begin at its initial angle.
+        If what is remembered cannot begin where it is said to.
     """
 
     remembers: ClassVar[bool]
     """Whether it knows where the unit was, so that it can be told, and can doubt it"""
 
-    def __init__(self, settings: Settings) -> None:
+    def __init__(self, settings: S) -> None:
         self.settings = settings
 
     @classmethod
-    def refusal(cls, _settings: Settings) -> str:
+    def refusal(cls, _settings: S) -> str:
         """Return why it cannot work with settings, for the user; empty if it can."""
         return ''
 
     @abstractmethod
-    def update(self, sample: Sample) -> Estimate:
-        """Take a pair of tensions; the unit may move.
+    def update(self, sample: Sample) -> E:
+        """Take a set of tensions; the unit may move.
 
         Raises
         ------
         TensionError
-            If they do not seat the joint.
+            If they do not seat a joint.
         """
 
     @abstractmethod
-    def imagine(self, sample: Sample) -> Estimate:
+    def imagine(self, sample: Sample) -> E:
         """As `update`, but the unit stays as it was.
 
         Raises
@@ -56,7 +62,7 @@ class Method(ABC):
             As `update` does.
         """
 
-    def again(self, sample: Sample) -> Estimate:
+    def again(self, sample: Sample) -> E:
         """Work out the newest tensions again with the settings of now; the unit stays.
 
         Raises
@@ -66,7 +72,7 @@ class Method(ABC):
         """
         return self.imagine(sample)
 
-    def change_settings(self, settings: Settings) -> str:
+    def change_settings(self, settings: S) -> str:
         """Go on with other settings; return what is to be said of the unit, mostly nothing."""
         self.settings = settings
         return ''
@@ -77,18 +83,18 @@ class Method(ABC):
         """Take it that the unit may have moved unseen."""
         return
 
-    def put(self, _bend_angle: float) -> None:
-        """Put the unit to an angle in rad, where it is for sure.
+    def put(self, _place: Any) -> None:
+        """Put the unit to an angle in rad, or the arm to its angles, where it is for sure.
 
         Raises
         ------
         BendAngleError
-            If it is not a number or beyond the stop; the unit then stays.
+            If one is not a number or beyond the stop; it then stays.
         """
         return
 
-    def measure(self, bend_angle: float) -> None:
-        """Take an angle in rad that a sensor says.
+    def measure(self, bend_angle: Any) -> None:
+        """Take an angle in rad that a sensor says; of an arm by joint.
 
         Raises
         ------
@@ -97,12 +103,16 @@ class Method(ABC):
         """
         self.put(bend_angle)
 
-    def take_committed(self) -> list[Estimate]:
+    def take_committed(self) -> list[E]:
         """Return the estimates that will not be taken back, each once, where others may be.
 
         Those that the newest sample has committed.
         """
         return []
+
+
+Method = WayOfEstimating[Settings, Estimate]
+"""One for a single unit"""
 
 
 def within_stop(bend_angle: float, design: JointDesign) -> tuple[float, str]:

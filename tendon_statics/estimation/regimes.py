@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..physics.state import Regime
+from ..physics.regime import Regime
 
 INVALID = 'invalid'
 """Said of what holds no pair of tensions that the model takes"""

@@ -1,6 +1,7 @@
-"""What an estimator computes with: the unit, how it is measured, and what is believed.
+"""What an estimator of a unit computes with: the unit, how it is measured, and what is believed.
 
-The defaults stand here; `tendon_statics.files.estimator_parameters` has their meaning and ranges.
+The defaults stand here and in `measuring`; `tendon_statics.files.estimator_parameters` has their
+meaning and ranges.
 """
 
 from __future__ import annotations
@@ -8,61 +9,27 @@ from __future__ import annotations
 import dataclasses
 from functools import cached_property
 
-from ..physics import UPRIGHT, DesignUncertainty, JointDesign, Load
+from ..physics import DesignUncertainty, JointDesign
 from ..tensions.cable_scale import CableScale
-from ..tensions.watch import Plausibility
+from .measuring import Measuring
 
-UPRIGHT_DIRECTION = UPRIGHT.gravity_direction
-
-_AS_READ, _BELIEVED = CableScale(), Plausibility()
+_AS_READ = CableScale()
 
 MANY_WEIGHTS = 300.0
 """Times the unit's weight that a cable of such a unit pulls at most"""
 
 
 @dataclasses.dataclass(frozen=True)
-class Settings:
+class Settings(Measuring):
     """A valid set of what may change while an estimator runs."""
 
     design: JointDesign
-    tension_stddev: float = 0.01
-    """N"""
-    design_uncertainty: DesignUncertainty | None = None
+    design_uncertainty: DesignUncertainty | None = dataclasses.field(default=None, kw_only=True)
     """How well the design is known; None: it is taken as exact"""
-    confidence: float = 0.95
-    """Probability with which an interval holds the angle"""
-    filter_lag: float = 0.15
-    """s"""
-    tension_bias_stddev: float = 0.0
-    """N"""
-    measured_bend_angle_stddev: float = 0.01
+    initial_bend_angle: float = dataclasses.field(default=0.0, kw_only=True)
     """rad"""
-    initial_bend_angle: float = 0.0
-    """rad"""
-    input_timeout: float = 0.5
-    """s"""
-    max_skew: float = 0.005
-    """s"""
-    max_clock_offset: float = 1.0
-    """s"""
-    cable_l: CableScale = _AS_READ
-    cable_s: CableScale = _AS_READ
-    plausibility: Plausibility = _BELIEVED
-    gravity_direction: tuple[float, float, float] = UPRIGHT_DIRECTION
-    """In the joint frame; where gravity's direction is not measured"""
-    imu_mounting: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Roll, pitch and yaw in rad of the IMU in the joint frame"""
-    load_timeout: float = 0.5
-    """s"""
-    tip_distance: float = 0.0
-    """m"""
-    tip_direction: tuple[float, float, float] = (1.0, 0.0, 0.0)
-    """In the joint frame; along which a force at the tip is looked for"""
-    tip_force_level: float = 0.95
-    tare_time: float = 2.0
-    """s"""
-    tare_limit: float = 0.5
-    """N"""
+    cable_l: CableScale = dataclasses.field(default=_AS_READ, kw_only=True)
+    cable_s: CableScale = dataclasses.field(default=_AS_READ, kw_only=True)
 
     @cached_property
     def scales(self) -> tuple[CableScale, CableScale]:
@@ -70,15 +37,15 @@ class Settings:
         stddev = self.tension_stddev
         return self.cable_l.with_noise(stddev), self.cable_s.with_noise(stddev)
 
-    @cached_property
-    def load(self) -> Load:
-        """The load that no sensor measures: gravity alone."""
-        return Load(self.gravity_direction)
+    @property
+    def weight(self) -> float:
+        """Weight of the unit in N."""
+        return self.design.weight
 
     @property
     def doubts(self) -> list[str]:
         """What of the settings does not fit the unit, a sentence each."""
-        weight = self.design.weight
+        weight = self.weight
         return [
             f'{cable}.max_tension is {scale.max_tension:g} N, {scale.max_tension / weight:.3g} '
             'times the weight of the unit: a wrong reading below that is believed; set it to '

@@ -72,7 +72,7 @@ class Tracking(Method):
 
     def update(self, sample: Sample) -> TrackedEstimate:
         """Follow the unit through a pair of tensions."""
-        result = self._tracker.update(sample.tension_l, sample.tension_s, sample.known.load)
+        result = self._tracker.update(*sample.pair, sample.known.load)
         if result.regime in AT_LIMIT:
             self._brought = result._replace(
                 regime=AT_LIMIT[result.regime], root_count=1, slip_gradient=None
@@ -82,7 +82,7 @@ class Tracking(Method):
     def imagine(self, sample: Sample) -> TrackedEstimate:
         """Work out where a pair of tensions would take the unit."""
         tracker = copy.copy(self._tracker)
-        result = tracker.update(sample.tension_l, sample.tension_s, sample.known.load)
+        result = tracker.update(*sample.pair, sample.known.load)
         return TrackedEstimate(result, sample.known, self.settings, self._brought)
 
     def change_settings(self, settings: Settings) -> str:

@@ -52,6 +52,14 @@ def load_arm(path: str | Path) -> Arm:
         raise ArmError(f'{path}: {error}', key=getattr(error, 'key', '')) from None
 
 
+def design_files_of(path: str | Path) -> list[Path]:
+    """Return the files of designs that an arm's file names, each once, in its order."""
+    path = Path(path)
+    units = read_yaml(path)['units']  # type: ignore[index]
+    named = (unit['design_file'] for unit in units if 'design_file' in unit)
+    return [path.parent / name for name in dict.fromkeys(named)]
+
+
 def _design(
     values: Mapping[str, Any], folder: Path, designs: dict[Path, JointDesign]
 ) -> JointDesign:

@@ -16,6 +16,9 @@ T = TypeVar('T')
 ESTIMATOR = 'estimator'
 """Name of the node that computes with a unit, in whatever namespace"""
 
+ESTIMATORS = (ESTIMATOR, 'arm_estimator')
+"""Nodes for which a parameter file that is for others alone is refused"""
+
 
 def read_parameters(path: Path) -> object:
     """Read a parameter file, as strictly as ROS and this package need it to mean one thing.
@@ -165,7 +168,7 @@ def node_parameter(content: object, node: str, parameter: str) -> object:
     return found
 
 
-def check_parameter_files(arguments: Sequence[str], node: str = '') -> None:
+def check_parameter_files(arguments: Sequence[str], node: str = '', beside: str = '') -> None:
     """Check the parameter files of a node, as strictly as their strictest reader does.
 
     Parameters
@@ -175,6 +178,8 @@ def check_parameter_files(arguments: Sequence[str], node: str = '') -> None:
     node : str
         Full name of the node. A file that is for other nodes only is refused: the node would
         compute with another unit than is meant. Empty: this is not checked.
+    beside : str
+        Full name of another node; files that are for it are left alone, as one may serve both.
 
     Raises
     ------
@@ -187,7 +192,9 @@ def check_parameter_files(arguments: Sequence[str], node: str = '') -> None:
             continue
         try:
             content = read_parameters(Path(value))
-            if node:
+            names = [name for name, _ in parameter_blocks(content)]
+            is_shared = beside and any(fits(name, beside) for name in names)
+            if node and not is_shared:
                 node_parameters(content, node)
         except ParameterFileError as error:
             raise ParameterFileError(f'{value}: {error}') from None

@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from typing import Any
 
 from ..estimation.methods import METHODS
 from ..estimation.settings import Settings
-from ..physics import Load
 from ..physics.admissible import check_bend_angle
 from ..physics.design import JointDesign, design_fields
-from ..physics.errors import BendAngleError, DesignError, DesignMisfitError, LoadError
-from ..physics.load import push_along
-from ..tensions.cable_scale import CableScale
-from ..tensions.watch import Plausibility
+from ..physics.errors import BendAngleError, DesignError, DesignMisfitError
 from .design_file import check_uncertainty, uncertainty_in
 from .estimator_parameters import (
     DESIGN,
@@ -25,9 +20,8 @@ from .estimator_parameters import (
     VECTORS,
     known_names,
 )
-from .parameter_kinds import MisfitError, Parameter, SettingError
-
-GRAVITY_DIRECTION, TIP_DIRECTION = 'gravity_direction', 'tip_direction'
+from .measuring_values import cable_scale, check_directions, measuring_in, numbers_in
+from .parameter_kinds import MisfitError, SettingError
 
 
 def misspelt(names: Mapping[str, object]) -> list[str]:
@@ -72,7 +66,7 @@ def check_parameters(values: Mapping[str, object]) -> None:
         check_uncertainty(values)
     except DesignError as error:
         raise _refusal(error) from error
-    _check_directions(values)
+    check_directions(values)
 
 
 def settings_from(values: Mapping[str, Any]) -> Settings:
@@ -103,31 +97,14 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
     except DesignError as error:
         raise _refusal(error) from error
 
-    def given(parameter: Parameter) -> Any:
-        return values.get(parameter.name, parameter.default)
-
-    number = {parameter.name: given(parameter) for parameter in NUMBERS}
-    vector: dict[str, Any] = {
-        parameter.name: tuple(map(float, given(parameter))) for parameter in VECTORS
-    }
-    plain: dict[str, Any] = {
-        field.name: float(number[field.name])
-        for field in dataclasses.fields(Settings)
-        if field.name in number
-    }
+    number = numbers_in(values, NUMBERS)
     try:
         settings = Settings(
             design=design,
             design_uncertainty=uncertainty,
-            cable_l=_cable_scale('cable_l', number),
-            cable_s=_cable_scale('cable_s', number),
-            plausibility=Plausibility(
-                float(number['max_tension_rate']),
-                number['saturation_count'],
-                number['frozen_count'],
-            ),
-            **vector,
-            **plain,
+            cable_l=cable_scale('cable_l.', number),
+            cable_s=cable_scale('cable_s.', number),
+            **measuring_in(values, NUMBERS, VECTORS, Settings),
         )
         check_bend_angle(design, settings.initial_bend_angle)
     except BendAngleError as error:
@@ -141,21 +118,3 @@ def settings_from(values: Mapping[str, Any]) -> Settings:
 def _refusal(error: DesignError, prefix: str = '') -> SettingError:
     kind = MisfitError if isinstance(error, DesignMisfitError) else SettingError
     return kind(f'{prefix}{error}')
-
-
-def _check_directions(values: Mapping[str, Any]) -> None:
-    try:
-        if GRAVITY_DIRECTION in values:
-            Load(tuple(map(float, values[GRAVITY_DIRECTION])))  # type: ignore[arg-type]
-    except LoadError as error:
-        raise SettingError(str(error)) from None
-    try:
-        if TIP_DIRECTION in values:
-            push_along(tuple(map(float, values[TIP_DIRECTION])), 0.0)
-    except LoadError as error:
-        raise SettingError(f'tip_{error}') from None
-
-
-def _cable_scale(cable: str, number: Mapping[str, float]) -> CableScale:
-    """Make a cable's scale."""
-    return CableScale(**{name: float(number[f'{cable}.{name}']) for name in CableScale._fields})

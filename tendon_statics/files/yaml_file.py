@@ -5,9 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ..physics.errors import TendonStaticsError
+
+if TYPE_CHECKING:
+    from yaml import MarkedYAMLError
 
 
 class YamlFileError(TendonStaticsError, ValueError):
@@ -119,13 +122,26 @@ def read_yaml_text(text: str, *, aliases: bool = True) -> object:
     except YamlFileError:
         raise
     except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        place = f' in line {mark.line + 1}' if mark else ''
+        line = _line_of(error, text)
+        place = f' in line {line}' if line else ''
         raise YamlFileError(f'it is not valid YAML{place}: {error.problem}') from None
     except Exception as error:
         # PyYAML lets through whatever its constructors raise at odd content.
         raise YamlFileError(f'it is not valid YAML: {" ".join(str(error).split())}') from None
 
+
+def _line_of(error: MarkedYAMLError, text: str) -> int | None:
+    """Return the line to look at, counted from 1.
+
+    What has no colon, or no end, PyYAML notices in a later line than it stands in.
+    """
+    is_late = error.context == 'while scanning a simple key' or _AT_END.search(error.problem or '')
+    marks = (error.problem_mark, error.context_mark)
+    mark = next(filter(None, reversed(marks) if is_late else marks), None)
+    return min(mark.line, text.rstrip().count('\n')) + 1 if mark else None
+
+
+_AT_END = re.compile('stream end|end of stream')
 
 _TOO_LARGE_FOR_AN_INTEGER = 2.0**63  # of ROS
 

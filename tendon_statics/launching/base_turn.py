@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from ..estimation.orientation import roll_and_pitch
-from ..files.estimator_parameters import GRAVITY_SOURCES, VECTORS
+from ..files.estimator_parameters import VECTORS
+from ..files.measuring_parameters import GRAVITY_SOURCES
 from ..files.parameter_file import node_parameter
 from ..files.yaml_file import YamlFileError, read_yaml
 from ..physics import Load

@@ -16,6 +16,7 @@ from ament_index_python.packages import (
 )
 
 from ..physics.errors import TendonStaticsError
+from .apt_package import apt_package
 
 ROBOT_MODEL, MARKERS = 'rviz_default_plugins/RobotModel', 'rviz_default_plugins/MarkerArray'
 
@@ -72,7 +73,7 @@ def rviz_arguments(joints: Sequence[Shown]) -> list[str]:
         get_package_prefix('rviz2')
     except PackageNotFoundError:
         raise RvizError(
-            'rviz:=true needs RViz, which is not installed: apt install ros-jazzy-rviz2'
+            f'rviz:=true needs RViz, which is not installed: apt install {apt_package("rviz2")}'
         ) from None
     # RViz may write to it when it ends, so it is not removed.
     path = Path(tempfile.mkdtemp(prefix='tendon_statics_'), 'tendon_statics.rviz')

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
@@ -14,7 +14,7 @@ from .inputs.subscriptions import Subscriptions
 from .outputs.publishers import Outputs
 
 if TYPE_CHECKING:
-    from .estimator import Estimator
+    from .managed_estimator import ManagedEstimator
 
 _LEVELS = {
     Level.OK: DiagnosticStatus.OK,
@@ -68,30 +68,22 @@ def status_of(
     return DiagnosticStatus(
         level=_LEVELS[level],
         name=name,
-        message=note or '; '.join(found + warnings) or health.regime or 'no tensions came yet',
+        message=note or '; '.join(found + warnings) or health.summary or 'no tensions came yet',
         hardware_id=hardware_id,
         values=[KeyValue(key=key, value=value) for key, value in values.items()],
     )
 
 
 class Reports:
-    """Reports each second, and at once what got worse.
-
-    Parameters
-    ----------
-    left_out : set of str
-        Parameters of the design that nobody has set.
-    """
+    """Reports each second, and at once what got worse."""
 
     def __init__(
         self,
-        node: Estimator,
+        node: ManagedEstimator[Any, Any],
         outputs: Outputs,
         inputs: Subscriptions,
         load: LoadInputs,
-        left_out: set[str],
     ) -> None:
-        self.left_out = left_out
         self._node = node
         self._outputs = outputs
         self._inputs = inputs
@@ -103,6 +95,7 @@ class Reports:
         health = self._node.health
         if health.counts_lost and (count := self._inputs.settle_losses()):
             health.note_lost(count)
+        health.look_closer()
         self.report()
         health.begin_period()
         self._load.begin_period()
@@ -126,12 +119,9 @@ class Reports:
         status = status_of(
             health,
             f'{node.get_fully_qualified_name().lstrip("/")}: estimation',
-            node.wiring.joint_name,
+            node.wiring.hardware_id,
             self._inputs.publishers_of_tensions(),
-            more={
-                **self._load.values(),
-                'design values left at the preliminary design': ', '.join(sorted(self.left_out)),
-            },
+            more={**self._load.values(), **node.values_to_report()},
             findings=(
                 *self._load.findings(time.monotonic()),
                 *self._inputs.misfits(),

@@ -19,7 +19,6 @@ from ..files.parameter_file import (
 from ..files.parameter_form import ParameterFileError
 from ..physics import DesignError, JointDesign
 from .outputs import messages
-from .parameters.estimator import in_its_type
 
 if TYPE_CHECKING:
     from .estimator import Estimator
@@ -103,12 +102,9 @@ def _whole(parameters: Mapping[str, Any]) -> dict[str, Any]:
 
 def _left(node: Estimator, parameters: Mapping[str, Any]) -> list[str]:
     """Say which parameters are fixed while the node runs, and other in the file."""
-    fixed = [
-        f'{parameter.name} = {parameters[parameter.name]!r}'
-        for parameter in ESTIMATOR_PARAMETERS
-        if parameter.is_fixed
-        and parameter.name in parameters
-        and in_its_type(Parameter(parameter.name, value=parameters[parameter.name])).value
-        != node.get_parameter(parameter.name).value
-    ]
+    fixed = []
+    for name in (of.name for of in ESTIMATOR_PARAMETERS if of.is_fixed and of.name in parameters):
+        given = node.table.in_its_type(Parameter(name, value=parameters[name]))
+        if given.value != node.get_parameter(name).value:
+            fixed.append(f'{name} = {parameters[name]!r}')
     return [f'only a new start of the node takes {", ".join(fixed)}'] if fixed else []

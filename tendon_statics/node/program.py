@@ -28,6 +28,11 @@ def estimator(arguments: Sequence[str] | None = None) -> int:
     return run('estimator', f'{__package__}.estimator', 'Estimator', arguments)
 
 
+def arm_estimator(arguments: Sequence[str] | None = None) -> int:
+    """Run the estimator of an arm; ``ros2 run tendon_statics arm_estimator``."""
+    return run('arm_estimator', f'{__package__}.arm_estimator', 'ArmEstimator', arguments)
+
+
 def run(name: str, module: str, node_class: str, arguments: Sequence[str] | None) -> int:
     """Run a node until SIGINT, SIGTERM or shutdown of the context; return the exit code.
 
@@ -48,7 +53,7 @@ def run(name: str, module: str, node_class: str, arguments: Sequence[str] | None
         from rclpy.executors import ExternalShutdownException
         from rclpy.utilities import remove_ros_args
 
-        from ..files.parameter_file import ESTIMATOR, check_parameter_files
+        from ..files.parameter_file import ESTIMATORS, check_parameter_files
 
         make_node = getattr(import_module(module), node_class)
     except ImportError as error:
@@ -80,8 +85,9 @@ def run(name: str, module: str, node_class: str, arguments: Sequence[str] | None
             return 0
         try:
             node = make_node()
-            if name == ESTIMATOR:
-                check_parameter_files(arguments, node.get_fully_qualified_name())
+            namespace = node.get_namespace().rstrip('/')
+            beside = '' if name in ESTIMATORS else f'{namespace}/{ESTIMATORS[0]}'
+            check_parameter_files(arguments, node.get_fully_qualified_name(), beside)
         except (StartError, ParameterException, RuntimeError, ValueError) as error:
             # RuntimeError and ValueError are rclpy's own, of bad overrides and names.
             return _say(name, error) if rclpy.ok() else 0

@@ -11,7 +11,9 @@ if TYPE_CHECKING:
 
 WHAT = {
     'estimator': 'Bend angle and joint pressure of one unit from its cable tensions, as a node.',
+    'arm_estimator': 'Bend angles and pressures of an arm from its cable tensions, as a node.',
     'pulley_driver': 'Plays recorded tensions where a rig has motor drivers, as a node.',
+    'view': 'A live page in the browser of what the estimators say, as a node.',
 }
 """Program → what it does"""
 
@@ -31,9 +33,17 @@ def node_help(name: str, arguments: Sequence[str]) -> str:
 
 
 def _help(name: str) -> str:
+    from ..files.arm_parameters import ARM_PARAMETERS, cable_table
     from ..files.driver_parameters import DRIVER_PARAMETERS
     from ..files.estimator_parameters import ESTIMATOR_PARAMETERS
+    from ..files.view_parameters import VIEW_PARAMETERS
 
+    tables = {
+        'estimator': ESTIMATOR_PARAMETERS,
+        'arm_estimator': ARM_PARAMETERS,
+        'pulley_driver': DRIVER_PARAMETERS,
+        'view': VIEW_PARAMETERS,
+    }
     lines = [
         f'usage: {name} [--help] [--version] [--ros-args ROS-ARGUMENTS]',
         '',
@@ -45,12 +55,14 @@ def _help(name: str) -> str:
         f'  {name} --ros-args -r __ns:=/left               a namespace',
         '',
         'parameters, with their defaults and what is allowed:',
+        *_lines(tables[name]),
     ]
+    if name == 'view':  # It finds the topics by itself, in every namespace.
+        lines = [line for line in lines if ' -r ' not in line]
     if name == 'estimator':
-        lines += _lines(ESTIMATOR_PARAMETERS)
         lines.append("  design....: the unit's design; `tendon-statics design` lists it")
-    else:
-        lines += _lines(DRIVER_PARAMETERS)
+    elif name == 'arm_estimator':
+        lines += _lines(cable_table(('NAME',)))
     return '\n'.join(lines)
 
 

@@ -1,4 +1,4 @@
-"""The services of the estimator: what each answers."""
+"""The services that every estimator has: what each answers."""
 
 from __future__ import annotations
 
@@ -6,51 +6,32 @@ import functools
 import json
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
 from std_srvs.srv import Trigger
 
-from ..files.cable_parameters import BIASES
-from ..physics import LoadError, TensionError, solve
+from ..physics import TensionError
 from ..tensions.tare import TareError, tare
-from .load_design import load_design
 from .outputs import messages
 
 if TYPE_CHECKING:
-    from .estimator import Estimator
+    from .managed_estimator import ManagedEstimator
 
-MOST_READINGS = 1_000_000
-"""Of which ``~/tare`` averages at most"""
+MOST_VALUES = 2_000_000
+"""Of which ``~/tare`` averages at most, of all cables together"""
 
 
 class Services:
-    """Answers what the estimator is asked, and refuses with the reason unless it is active."""
+    """Answers what an estimator is asked, and refuses with the reason unless it is active."""
 
-    def __init__(self, node: Estimator) -> None:
+    def __init__(self, node: ManagedEstimator[Any, Any]) -> None:
         self._node = node
-        self._recent: deque[tuple[float, float, float]] = deque(maxlen=MOST_READINGS)
-        if messages.INTERFACES_MISSING:
-            node.get_logger().warning(
-                'No ~/solve, ~/solve_inverse, ~/load_design and ~/estimate, since '
-                f'tendon_statics_interfaces is not there ({messages.INTERFACES_MISSING}). It is '
-                'in the folder interfaces/: colcon build --base-paths . interfaces'
-            )
-        else:
-            offer(node, messages.Solve, 'solve', self._solve, messages.refuse_solve)
-            offer(
-                node, messages.SolveInverse, 'solve_inverse', self._invert, messages.refuse_inverse
-            )
-            offer(
-                node,
-                messages.LoadDesign,
-                'load_design',
-                functools.partial(load_design, node),
-                messages.refuse,
-                in_every_state=True,
-            )
+        self._recent: deque[tuple[float, Sequence[float]]] = deque(
+            maxlen=MOST_VALUES // len(node.bias_parameters)
+        )
         offer(node, Trigger, 'solve_latest', self._solve_latest, messages.refuse)
         offer(node, Trigger, 'reset', self._reset, messages.refuse)
         offer(node, Trigger, 'tare', self._tare, messages.refuse)
@@ -59,11 +40,11 @@ class Services:
         change = node._service_change_state
         change.callback = functools.partial(self._change_state, change.callback)
 
-    def note_reading(self, value_l: float, value_s: float) -> None:
+    def note_reading(self, values: Sequence[float]) -> None:
         """Remember what load cells say, for ``~/tare``."""
         recent, now = self._recent, time.monotonic()
-        recent.append((now, value_l, value_s))
-        oldest = now - self._node.unit.settings.tare_time
+        recent.append((now, values))
+        oldest = now - self._node.core.settings.tare_time
         while recent[0][0] < oldest:
             recent.popleft()
 
@@ -71,38 +52,18 @@ class Services:
         """Forget what load cells said."""
         self._recent.clear()
 
-    def _solve(
-        self, request: messages.Solve.Request, response: messages.Solve.Response
-    ) -> messages.Solve.Response:
-        settings = self._node.unit.settings
-        try:
-            known = messages.asked_load(request, self._node.known_load())
-            result = solve(settings.design, request.tension_l, request.tension_s, known.load)
-        except (TensionError, LoadError) as error:
-            return messages.refuse_solve(response, str(error))
-        return messages.fill_solve_response(
-            response, result, settings, load_assured=known.is_assured
-        )
-
-    def _invert(
-        self, request: messages.SolveInverse.Request, response: messages.SolveInverse.Response
-    ) -> messages.SolveInverse.Response:
-        return messages.fill_inverse_response(
-            response, self._node.unit.settings.design, request, self._node.known_load().load
-        )
-
     def _solve_latest(
         self, _request: Trigger.Request, response: Trigger.Response
     ) -> Trigger.Response:
-        unit, health = self._node.unit, self._node.health
-        newest = unit.newest
+        core, health = self._node.core, self._node.health
+        newest = core.newest
         if newest is None:
             reason = f'no valid tensions have come on {self._node.tension_topics} yet'
             if health.last_drop:
                 reason += f'; the newest message was invalid: {health.last_drop}'
             return messages.refuse(response, reason)
         try:
-            estimate = unit.again(newest)
+            estimate = core.again(newest)
         except TensionError as error:  # valid for the design of then, not for that of now
             return messages.refuse(response, str(error))
         load = newest.known.load
@@ -110,13 +71,13 @@ class Services:
         response.message = json.dumps(
             {
                 **estimate.as_dict(),
-                'contact_law': unit.settings.design.contact_law,
+                **self._node.values_of_settings(),
                 'gravity_direction': load.gravity_direction,
                 'tip_force': load.tip_force,
                 'tip_distance': load.tip_distance,
                 'load_assured': newest.known.is_assured,
                 'age': time.monotonic() - newest.time,
-                'invalid_since': unit.invalid_since_newest,
+                'invalid_since': core.invalid_since_newest,
                 'rejected_corrections': self._node.rejected_corrections,
             },
             allow_nan=False,
@@ -124,37 +85,31 @@ class Services:
         return response
 
     def _reset(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        unit = self._node.unit
-        if not unit.remembers:
+        core = self._node.core
+        if not core.remembers:
             return messages.refuse(
                 response, 'estimation is equilibrium, which remembers nothing to reset'
             )
-        unit.put(unit.settings.initial_bend_angle, time.monotonic())
         response.success = True
-        response.message = f'the unit is at {unit.settings.initial_bend_angle:.6g} rad'
+        response.message = core.put_back(time.monotonic())
         return response
 
     def _tare(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         """Set the biases with which the readings of the last `tare_time` are 0 in the mean."""
-        settings = self._node.unit.settings
+        settings, biases = self._node.core.settings, self._node.bias_parameters
         oldest = time.monotonic() - settings.tare_time
-        recent = [(value_l, value_s) for at, value_l, value_s in self._recent if at >= oldest]
-        tension_l, tension_s = (
-            [scale.gain * reading[cable] + scale.bias for reading in recent]
-            for cable, scale in enumerate(settings.scales)
-        )
+        recent = [values for at, values in self._recent if at >= oldest]
+        tensions = {
+            cable: [scale.gain * reading[place] + scale.bias for reading in recent]
+            for place, (cable, scale) in enumerate(zip(biases, settings.scales, strict=True))
+        }
         try:
-            tares = tare(
-                tension_l,
-                tension_s,
-                (settings.cable_l.bias, settings.cable_s.bias),
-                settings.tension_stddev,
-            )
+            tares = tare(tensions, [of.bias for of in settings.scales], settings.tension_stddev)
         except TareError as error:
             return messages.refuse(
                 response,
-                f'{error}, of the last {settings.tare_time:g} s; both cables have to hang slack '
-                'and still',
+                f'{error}, of the last {settings.tare_time:g} s; '
+                f'{"both" if len(biases) == 2 else "all"} cables have to hang slack and still',
             )
         for of in tares:
             if not abs(of.mean) <= settings.tare_limit:
@@ -164,17 +119,17 @@ class Services:
                     f'{settings.tare_limit:g} N: is it taut?',
                 )
         result = self._node.changes.set_together(
-            Parameter(bias.name, Parameter.Type.DOUBLE, of.bias)
-            for bias, of in zip(BIASES, tares, strict=True)
+            Parameter(bias, Parameter.Type.DOUBLE, of.bias)
+            for bias, of in zip(biases.values(), tares, strict=True)
         )
         if not result.successful:
             return messages.refuse(response, result.reason)
         response.success = True
         response.message = '; '.join(
-            f'{bias.name} was {of.old_bias:.6g} N and is {of.bias:.6g} N, from {of.readings} '
+            f'{bias} was {of.old_bias:.6g} N and is {of.bias:.6g} N, from {of.readings} '
             f'readings that scatter by {of.scatter:.3g} N'
-            + (f' ({doubt})' if (doubt := of.doubt(settings.design.weight)) else '')
-            for bias, of in zip(BIASES, tares, strict=True)
+            + (f' ({doubt})' if (doubt := of.doubt(settings.weight, settings.what)) else '')
+            for bias, of in zip(biases.values(), tares, strict=True)
         )
         self._node.get_logger().info(f'Tare: {response.message}')
         return response
@@ -188,8 +143,19 @@ class Services:
             return response
 
 
+def say_interfaces_are_missing(
+    node: ManagedEstimator[Any, Any], *offered: str, why: str = messages.INTERFACES_MISSING
+) -> None:
+    """Warn that a node offers less without the package nested in interfaces/."""
+    node.get_logger().warning(
+        f'No {", ".join(offered[:-1])} and {offered[-1]}, since tendon_statics_interfaces is not '
+        f'there or older than this ({why}). It is in the folder '
+        'interfaces/: colcon build --base-paths . interfaces'
+    )
+
+
 def offer(
-    node: Estimator,
+    node: ManagedEstimator[Any, Any],
     service_type: type,
     name: str,
     answer: Callable[[Any, Any], Any],

@@ -9,10 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import WrenchStamped
-from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.publisher import Publisher
-from rclpy.qos import QoSProfile
-from rclpy.qos_overriding_options import QoSOverridingOptions
 from std_msgs.msg import Header
 
 from ..estimation.estimate import Estimate
@@ -20,8 +17,7 @@ from ..estimation.tip_force_watch import Pushed, TipForceWatch
 from ..physics import TendonStaticsError, TipForce, tip_force
 from ..physics.load import push_along
 from .outputs import messages
-from .outputs.publishers import OUTPUT_DEPTH
-from .overridable_qos import OVERRIDABLE
+from .outputs.publishers import output_publisher
 from .services import offer
 
 if TYPE_CHECKING:
@@ -45,7 +41,7 @@ class TipForces:
         self._node = node
         self._watch = TipForceWatch()
         self._next = 0.0
-        self._wrench = self._publisher(WrenchStamped, '~/tip_wrench')
+        self._wrench = output_publisher(node, WrenchStamped, '~/tip_wrench')
         self._forces: Publisher | None = None
         if TipForceMessage is None:
             node.get_logger().warning(
@@ -54,17 +50,8 @@ class TipForces:
                 'colcon build --base-paths . interfaces'
             )
         else:
-            self._forces = self._publisher(TipForceMessage, '~/tip_force')
+            self._forces = output_publisher(node, TipForceMessage, '~/tip_force')
             offer(node, SolveTipForce, 'solve_tip_force', self._solve, _refuse)
-
-    def _publisher(self, message_type: type, topic: str) -> Publisher:
-        return self._node.create_publisher(
-            message_type,
-            topic,
-            QoSProfile(depth=OUTPUT_DEPTH),
-            qos_overriding_options=QoSOverridingOptions(OVERRIDABLE),
-            event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
-        )
 
     def note_angle(self, bend_angle: float) -> None:
         """Take a measured angle in rad.
@@ -74,7 +61,7 @@ class TipForces:
         BendAngleError
             If it is not a number or lies beyond the stop.
         """
-        self._watch.note_angle(bend_angle, time.monotonic(), self._node.unit.settings)
+        self._watch.note_angle(bend_angle, time.monotonic(), self._node.core.settings)
 
     def forget(self) -> None:
         """Forget what was measured."""
@@ -90,7 +77,7 @@ class TipForces:
         ]
         if not listeners or now < self._next:
             return
-        settings = self._node.unit.settings
+        settings = self._node.core.settings
         pushed = self._watch.ask(estimate, settings, now)
         if pushed is None:
             return
@@ -112,7 +99,7 @@ class TipForces:
             self._wrench.publish(wrench)
 
     def _solve(self, request: Any, response: Any) -> Any:
-        settings, known = self._node.unit.settings, self._node.known_load()
+        settings, known = self._node.core.settings, self._node.known_load()
         direction, distance = tuple(map(float, request.direction)), request.tip_distance
         if not any(direction):
             if distance:

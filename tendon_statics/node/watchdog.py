@@ -14,7 +14,7 @@ from .inputs.sources import TensionSource
 from .outputs.publishers import Outputs
 
 if TYPE_CHECKING:
-    from .estimator import Estimator
+    from .managed_estimator import ManagedEstimator
 
 WARNING_PERIOD = 5.0
 """Least time in s between two warnings that messages cause."""
@@ -41,7 +41,11 @@ class Watchdog:
     """Notices that tensions no longer come, and has reports made in time."""
 
     def __init__(
-        self, node: Estimator, outputs: Outputs, source: TensionSource, reports: Reports
+        self,
+        node: ManagedEstimator[Any, Any],
+        outputs: Outputs,
+        source: TensionSource,
+        reports: Reports,
     ) -> None:
         self._node = node
         self._outputs = outputs
@@ -78,7 +82,7 @@ class Watchdog:
         if not self._has_said_stale:
             self._has_said_stale = True
             self._outputs.say_regime(STALE)
-        self._node.unit.lose_sight()
+        self._node.core.lose_sight()
         self._outputs.clear_drawing()
 
     def _on_time(self) -> None:
@@ -97,7 +101,7 @@ class Watchdog:
         self._wake_when_due()
 
     def _stale_from(self) -> float:
-        return self._node.unit.stale_from(self._watched_since)
+        return self._node.core.stale_from(self._watched_since)
 
     def _wake_when_due(self) -> None:
         delay = LONGEST_SLEEP
@@ -112,7 +116,7 @@ class Watchdog:
         self.lose_sight()
         self._source.loosen()
         node = self._node
-        timeout = node.unit.settings.input_timeout
+        timeout = node.core.settings.input_timeout
         node.get_logger().warning(
             f'No valid tensions on {node.tension_topics} for {timeout:g} s', **throttled()
         )

@@ -28,8 +28,9 @@ from .forces import ContactCoefficients, ContactForces, ForceRemainder, contact_
 from .gradients import TensionGradient
 from .inverse import tensions_for
 from .load import UPRIGHT, Load
+from .regime import Regime
 from .solver import residual, solve
-from .state import Equilibrium, Regime
+from .state import Equilibrium
 from .tensions import Tensions
 from .tip_force import TipForce, tip_force, tip_force_intervals
 from .tip_force_state import tip_force_of_state

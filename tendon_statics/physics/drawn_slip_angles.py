@@ -9,8 +9,8 @@ from .design import JointDesign
 from .design_uncertainty import DesignUncertainty
 from .errors import TensionError
 from .load import Load
+from .regime import Regime
 from .solver import solve
-from .state import Regime
 from .tensions import Tensions
 
 DRAWS = 8192

@@ -9,9 +9,9 @@ from .admissible import check_bend_angle
 from .design import JointDesign
 from .errors import TensionError, UnreachableError
 from .load import UPRIGHT, Load
+from .regime import Regime
 from .slip import NEGLIGIBLE_LOAD
 from .solver import solve
-from .state import Regime
 from .tensions import Tensions, taut_slip
 
 ROUND_TRIP_TOLERANCE = 1e-9

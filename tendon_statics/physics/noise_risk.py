@@ -6,7 +6,8 @@ import math
 from typing import NamedTuple
 
 from .gradients import slip_by_tensions
-from .state import Equilibrium, Regime
+from .regime import Regime
+from .state import Equilibrium
 
 LARGEST = 4.0
 """Deviations by which the largest of many readings is off: of 30 000, a minute at 500 Hz"""

@@ -10,8 +10,8 @@ from enum import Enum
 from .design import JointDesign
 from .forces import contact_coefficients
 from .load import UPRIGHT
+from .regime import Regime
 from .solver import solve
-from .state import Regime
 from .tensions import Tensions, taut_slip
 
 TENSION_L, TENSION_S = 1.0, 2.0

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from .design import JointDesign
 from .load import UPRIGHT, Load
+from .regime import Regime
 from .roots import refine
-from .state import Equilibrium, Regime
+from .state import Equilibrium
 from .tensions import check_tensions, taut_slip
 
 

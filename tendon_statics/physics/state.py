@@ -3,46 +3,20 @@
 from __future__ import annotations
 
 import math
-from enum import Enum
 from typing import Any, NamedTuple
 
 from .admissible import Interval, angles_held
 from .design import JointDesign
 from .design_gradients import Derivatives, SlipAnswer, answer_derivatives
 from .design_uncertainty import DesignUncertainty
-from .forces import ContactForces, ForceRemainder, contact_forces
-from .gradients import (
-    TensionGradient,
-    angle_by_tensions,
-    finite,
-    normal_by_tensions,
-    of_sides,
-    stddev_of,
-)
+from .forces import ContactForces, ForceRemainder
+from .gradients import TensionGradient, stddev_of
 from .kept import kept
 from .load import Load
+from .regime import Regime
 from .slip import Probe, Slip
+from .state_details import StateDetails, state_details
 from .tensions import Tensions, taut_slip
-
-
-class Regime(str, Enum):
-    """What a pair of tensions means for the unit; the values are used on every interface."""
-
-    EQUILIBRIUM = 'equilibrium'
-    """The unit is on the verge of slipping at one angle, which is given."""
-    HELD = 'held'
-    """Friction keeps the unit from slipping towards the stronger cable at every angle from 0 to
-    the stop: tensions alone do not determine the angle. For a tracker: where it was."""
-    SLIPPING = 'slipping'
-    """The unit has slipped and friction holds it again, at its limit; only a tracker says so."""
-    DRIVEN_TO_STOP = 'driven_to_stop'
-    """At no angle from 0 to the stop can friction keep the unit from slipping towards the stronger
-    cable: it slides to the stop. Bent the other way it may be held; `admissible_angles` tells."""
-    SLACK = 'slack'
-    """A cable carries no tension, which is outside the model."""
-
-    def __str__(self) -> str:
-        return self.value
 
 
 class _Fields(NamedTuple):
@@ -145,12 +119,12 @@ class Equilibrium(_Fields):
     @property
     def forces(self) -> ContactForces | None:
         """The forces on the joint surface."""
-        return self._details[1] if self._is_vouched_for else None
+        return self._details.forces if self._is_vouched_for else None
 
     @property
     def force_remainder(self) -> ForceRemainder | None:
         """What Eqs. (1) and (2) leave over, one by one."""
-        return self._details[2] if self._is_vouched_for else None
+        return self._details.force_remainder if self._is_vouched_for else None
 
     @property
     def branch_consistent(self) -> bool | None:
@@ -171,12 +145,12 @@ class Equilibrium(_Fields):
         """
         if self.is_tracked:
             return self.slip_gradient if self.angle_assured else None
-        return None if self.bend_angle is None else self._details[3]
+        return None if self.bend_angle is None else self._details.bend_angle_gradient
 
     @property
     def pressure_gradient(self) -> TensionGradient | None:
         """∂p/∂T in Pa/N; None also where it is infinite."""
-        return self._details[4] if self._is_vouched_for else None
+        return self._details.pressure_gradient if self._is_vouched_for else None
 
     @property
     def bend_angle_derivatives(self) -> Derivatives | None:
@@ -298,38 +272,14 @@ class Equilibrium(_Fields):
         return not self.is_tracked or bool(self.branch_consistent)
 
     @kept
-    def _details(
-        self,
-    ) -> tuple[
-        float, ContactForces, ForceRemainder, TensionGradient | None, TensionGradient | None
-    ]:
-        """N, forces, remainder, ∂θ/∂T and ∂p/∂T, None where infinite; a held unit does not move.
-
-        All at once, since they share most of the work: one by one they take half as long again.
-        """
-        slip, probe = self._slip_and_probe
-        design, regime, point = self.design, self.regime, slip.point(probe)
-        law, state, lever = slip.law, point.state, design.relative_lever
-        at_limit, friction = self._is_at_limit, self._friction
-        normal = law.normal_slopes(state, friction)
-        forces, remainder = contact_forces(slip, point, friction, normal[0])
-        angle, by_tension = (0.0, 0.0), STAYS
-        if regime is Regime.EQUILIBRIUM:
-            if point.slope == 0.0:
-                return slip.total * normal[0], forces, remainder, None, None
-            angle = angle_by_tensions(slip, point, lever)
-            by_tension = of_sides(slip, angle, slip.side)
-        behind, ahead = normal_by_tensions(
-            slip, point, normal, lever, angle=angle, at_limit=at_limit
-        )
-        area = design.contact_area
-        pressure_by_tension = of_sides(slip, (behind / area, ahead / area))
-        return (
-            slip.total * normal[0],
-            forces,
-            remainder,
-            finite(by_tension),
-            finite(pressure_by_tension),
+    def _details(self) -> StateDetails:
+        """Contact force and gradients, all at once."""
+        return state_details(
+            *self._slip_and_probe,
+            self._friction,
+            self.design,
+            at_root=self.regime is Regime.EQUILIBRIUM,
+            at_limit=self._is_at_limit,
         )
 
     @kept
@@ -351,7 +301,3 @@ class Equilibrium(_Fields):
             *(self.design, self.load, self.bend_angle, self.tension_l + self.tension_s),
             at_stop=self.regime is Regime.DRIVEN_TO_STOP,
         )
-
-
-STAYS = TensionGradient(0.0, 0.0)
-"""Of an angle that does not follow the tensions"""

@@ -12,7 +12,8 @@ from .design_uncertainty import DesignUncertainty
 from .errors import BendAngleError
 from .force_scores import NORMAL
 from .load import Load
-from .state import Equilibrium, Regime
+from .regime import Regime
+from .state import Equilibrium
 from .tip_force import TipForce, may_be_at_stop, tip_force
 
 SAME_ANGLE = 1e-9

@@ -11,9 +11,10 @@ from .design import JointDesign
 from .gradients import TensionGradient, root_gradient
 from .load import UPRIGHT, DeadLoad, Load
 from .loaded_joint import LoadedJoint
+from .regime import Regime
 from .roots import refine
 from .slip import Slip
-from .state import Equilibrium, Regime
+from .state import Equilibrium
 from .tensions import Tensions, check_tensions, taut_slip
 
 NO_GRADIENT = TensionGradient(0.0, 0.0)

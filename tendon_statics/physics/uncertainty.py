@@ -24,8 +24,8 @@ from .design_uncertainty import DesignUncertainty
 from .drawn_slip_angles import DrawnSlipAngles
 from .gradients import slip_by_tensions
 from .load import UPRIGHT, Load
+from .regime import Regime
 from .slip import Slip
-from .state import Regime
 from .tensions import Tensions, check_tensions, taut_slip
 
 FAR = 5.0

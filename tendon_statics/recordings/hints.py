@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..estimation.settings import MANY_WEIGHTS
 from ..physics import JointDesign
+from ..physics.arm import Arm
 from ..tensions.watch import Plausibility
-from .recording import Floats, Recording
+from .arm_recording import ArmRecording
+from .recording import Recording
+from .session import Floats, Session
 
 _ALL_BELIEVED = Plausibility()
+
+_COUNTS = {2: 'two'}
 
 BEYOND = 0.2
 """Share of angles beyond the stop above which their unit is doubted: a unit rests against its stop
@@ -41,91 +47,114 @@ def hints(
 
     And where tensions have spikes, unless `believed` has their rate checked.
     """
+    cables = {'tension_l': recording.tension_l, 'tension_s': recording.tension_s}
+    angles = {} if recording.bend_angle is None else {'bend_angle': recording.bend_angle}
     return [
-        hint
-        for hint in (
-            _of_angle(recording, design),
-            _of_tilt(recording),
-            _of_tensions(recording, design),
-            _of_time(recording),
-            *_of_spikes(recording, design, believed),
-        )
-        if hint
+        *_of_angles(angles, [design.max_bend_angle] * len(angles)),
+        *_of_tilt(recording),
+        *_of_tensions(cables, design.weight, 'the unit', ('cable_l.gain', 'cable_s.gain')),
+        *_of_time(recording),
+        *_of_clock(recording),
+        *_of_spikes(recording, cables, design.weight, believed),
     ]
 
 
-def _of_angle(recording: Recording, design: JointDesign) -> str:
-    if recording.bend_angle is None:
-        return ''
-    angles = abs(recording.bend_angle[np.isfinite(recording.bend_angle)])
-    stop = design.max_bend_angle
-    beyond = angles[angles > (1.0 + SLACK_OF_STOP) * stop]
-    if not len(beyond) or len(beyond) < BEYOND * len(angles):
-        return ''
-    text = (
-        f'{100.0 * len(beyond) / len(angles):.3g} % of the measured angles lie beyond the stop, '
-        f'{stop:.4g} rad, in the middle by {np.median(beyond) / stop:.3g} times'
-    )
-    if np.median(beyond) > 2.0 * stop:
-        return (
-            f'{text}: if they are degrees, the column has to be named bend_angle [deg], or say '
-            '--units bend_angle=deg'
+def arm_hints(
+    recording: ArmRecording, arm: Arm, believed: Plausibility = _ALL_BELIEVED
+) -> list[str]:
+    """Say the same of a recording of an arm."""
+    cables, measured = dict(recording.cable_tensions), recording.bend_angles
+    angles = {f'bend_angle_{joint}': of for joint, of in measured.items()}
+    weight = sum(design.weight for design in arm.designs)
+    gains = tuple(f'cables.{name}.gain' for name in cables)
+    return [
+        *_of_angles(angles, [arm.stops[joint - 1] for joint in measured]),
+        *_of_tilt(recording),
+        *_of_tensions(cables, weight, 'the arm', gains),
+        *_of_time(recording),
+        *_of_clock(recording),
+        *_of_spikes(recording, cables, weight, believed),
+    ]
+
+
+def _of_angles(measured: Mapping[str, Floats], stops: Sequence[float]) -> Iterator[str]:
+    for (name, values), stop in zip(measured.items(), stops, strict=True):
+        angles = abs(values[np.isfinite(values)])
+        beyond = angles[angles > (1.0 + SLACK_OF_STOP) * stop]
+        if not len(beyond) or len(beyond) < BEYOND * len(angles):
+            continue
+        of = '' if name == 'bend_angle' else f' of {name}'
+        text = (
+            f'{100.0 * len(beyond) / len(angles):.3g} % of the measured angles{of} lie beyond the '
+            f'stop, {stop:.4g} rad, in the middle by {np.median(beyond) / stop:.3g} times'
         )
-    return f'{text}: the design may have too small a max_bend_angle, or the angles a wrong zero'
+        if np.median(beyond) > 2.0 * stop:
+            yield (
+                f'{text}: if they are degrees, the column has to be named {name} [deg], or say '
+                f'--units {name}=deg'
+            )
+        else:
+            yield (
+                f'{text}: the design may have too small a max_bend_angle, or the angles a wrong '
+                'zero'
+            )
 
 
-def _of_tilt(recording: Recording) -> str:
+def _of_tilt(recording: Session) -> Iterator[str]:
     for name in ('base_tilt', 'base_roll'):
         tilts = getattr(recording, name)
         if tilts is not None and (abs(tilts[np.isfinite(tilts)]) > 2.0 * np.pi).any():
-            return (
+            yield (
                 f'{name} is beyond a full turn: if it is in degrees, the column has to be named '
                 f'{name} [deg], or say --units {name}=deg'
             )
-    return ''
+            return
 
 
-def _of_tensions(recording: Recording, design: JointDesign) -> str:
-    """Doubt tensions that no such unit has; readings of load cells are not looked at."""
-    tensions = np.concatenate([recording.tension_l, recording.tension_s])
+def _of_tensions(
+    cables: Mapping[str, Floats], weight: float, whose: str, gains: Sequence[str]
+) -> Iterator[str]:
+    """Doubt tensions that nothing so heavy has; readings of load cells are not looked at."""
+    tensions = np.concatenate([*cables.values()])
     pulled = abs(tensions[np.isfinite(tensions) & (tensions != 0.0)])
     if not len(pulled):
-        return ''
-    middle = float(np.median(pulled))
-    if middle > MANY_WEIGHTS * design.weight:
-        return (
-            f'the tensions, {middle:.4g} N in the middle, are {middle / design.weight:.3g} times '
-            'the weight of the unit: if they are mN or gf, say so, tension_l [mN] or '
+        return
+    first, middle = next(iter(cables)), float(np.median(pulled))
+    if middle > MANY_WEIGHTS * weight:
+        yield (
+            f'the tensions, {middle:.4g} N in the middle, are {middle / weight:.3g} times '
+            f'the weight of {whose}: if they are mN or gf, say so, {first} [mN] or '
             '--units tension=mN; if they are the counts of an amplifier, the design file has to '
-            'have cable_l.gain and cable_s.gain'
+            f'have {", ".join(gains[:-1])} and {gains[-1]}'
         )
-    total = recording.tension_l + recording.tension_s
+        return
+    total = np.sum([*cables.values()], axis=0)
     total = total[np.isfinite(total) & (total > 0.0)]
-    if len(total) and np.median(total) < 0.1 * design.weight:
-        return (
-            f'the two tensions together, {np.median(total):.4g} N in the middle, are far below '
-            f'the weight of the unit, {design.weight:.4g} N: if they are kgf or kN, say so, '
-            'tension_l [kgf] or --units tension=kgf'
+    if len(total) and np.median(total) < 0.1 * weight:
+        yield (
+            f'the {_COUNTS.get(len(cables), len(cables))} tensions together, '
+            f'{np.median(total):.4g} N in the middle, are far below '
+            f'the weight of {whose}, {weight:.4g} N: if they are kgf or kN, say so, '
+            f'{first} [kgf] or --units tension=kgf'
         )
-    return ''
 
 
-def _of_spikes(recording: Recording, design: JointDesign, believed: Plausibility) -> list[str]:
+def _of_spikes(
+    recording: Session, cables: Mapping[str, Floats], weight: float, believed: Plausibility
+) -> Iterator[str]:
     if believed.max_rate > 0.0 and recording.time is not None:
-        return []
-    found = []
-    for name, values in (('tension_l', recording.tension_l), ('tension_s', recording.tension_s)):
+        return
+    for name, values in cables.items():
         believed_ones = np.where(np.array(recording.known_faults) == '', values, math.nan)
-        places = _spikes(believed_ones, SPIKE * design.weight)
+        places = _spikes(believed_ones, SPIKE * weight)
         if len(places):
             place = int(places[0])
-            found.append(
+            yield (
                 f'{name} goes from {values[place - 1]:.4g} N to {values[place]:.4g} N and back '
                 f'within one sample, {len(places)} times: if the cable does not, set its '
                 'max_tension, or max_tension_rate, in the design file (a rate needs times; '
                 '--rate HZ makes those of a table), or a tracked unit is put where it is not'
             )
-    return found
 
 
 def _spikes(values: Floats, least: float) -> NDArray[np.intp]:
@@ -141,24 +170,31 @@ def _spikes(values: Floats, least: float) -> NDArray[np.intp]:
     return places[height[places - 1] > STANDS_OUT * largest]
 
 
-def _of_time(recording: Recording) -> str:
+def _of_time(recording: Session) -> Iterator[str]:
     if recording.time is None:
-        return ''
+        return
     times = recording.time[np.isfinite(recording.time)]
     steps = abs(np.diff(times))
     steps = steps[steps > 0.0]
     if len(steps) < 2:
-        return ''
+        return
     step = float(np.median(steps))
     if step > SLOWEST:
         unit = 'ms' if step < 1e4 else 'us' if step < 1e5 else 'ns'
-        return (
+        yield (
             f'there are {step:.4g} s from one sample to the next: if the time is in ms, us or ns, '
             f'say so, time [{unit}] or --units time={unit}'
         )
     if step < FASTEST:
-        return (
+        yield (
             f'there are only {step:.4g} s from one sample to the next: the unit of the time may '
             'be a larger one'
         )
-    return ''
+
+
+def _of_clock(recording: Session) -> Iterator[str]:
+    if recording.unknown_times:
+        yield (
+            f'{recording.unknown_times}; as it is, gaps are not seen, and no angle of a unit that '
+            'is followed is assured'
+        )

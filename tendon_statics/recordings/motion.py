@@ -31,12 +31,18 @@ def mark_motion(recording: Recording, step: float) -> Recording:
     Raises
     ------
     RecordingError
-        If there is no angle, time goes back, or the step is not above 0.
+        If there is no angle, time goes back or is there but not known, or the step is not above
+        0.
     """
     if recording.bend_angle is None:
         raise RecordingError('there is no measured bend angle in the data')
     if not step > 0.0:
         raise RecordingError(f'the step of a motion is {step!r} rad, which must be above 0')
+    if recording.unknown_times:
+        raise RecordingError(
+            f'{recording.name}: motions are not told from gaps where times are not known: '
+            f'{recording.unknown_times}'
+        )
     recording.in_order()
     known = np.flatnonzero(~np.isnan(recording.bend_angle))
     near = np.diff(known) == 1

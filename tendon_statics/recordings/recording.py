@@ -9,30 +9,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..physics import Load
-from ..physics.sample_loads import SampleLoads
-from .errors import RecordingError, one_line
-
-Floats = npt.NDArray[np.float64]
-
-OF_LOAD = ('base_tilt', 'base_roll', 'tip_force_x', 'tip_force_z')
-"""What may have been measured of the load"""
+from .session import OF_LOAD, Floats, Session, numbers_of
 
 QUANTITIES = ('time', 'tension_l', 'tension_s', 'bend_angle', 'pressure', *OF_LOAD)
 """What a recording has numbers of; all but the tensions may be missing"""
 
-MOST_NAMED = 3
-"""Damaged places that are named one by one; of more, the rest is counted"""
-
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Recording:
-    """Samples of one unit in the order of the file; SI units, angles in rad.
-
-    All arrays have the shape ``(n,)``. A sample may hold NaN or tensions that the model does not
-    take: it is kept, and whoever uses the recording says what becomes of it. So are samples whose
-    times are not in order; what needs the order asks for it by `in_order`.
-    """
+class Recording(Session):
+    """Samples of one unit, as `Session` says; SI units, angles in rad."""
 
     tension_l: Floats
     """T_l in N"""
@@ -44,32 +29,8 @@ class Recording:
     """Measured p in Pa, likewise"""
     state: Sequence[str] | None = None
     """``slipping`` or ``held`` where that is known of a sample, else anything"""
-    time: Floats | None = None
-    """s"""
-    time_origin: int = 0
-    """ns of the Unix epoch at which `time` is 0, where that is known"""
-    clock: str = ''
-    """Of a bag, what `time` is by: ``stamp`` or ``log``, topic by topic where they differ"""
-    name: str = 'recording'
-    """Where it comes from, without the folder"""
-    damage: tuple[str, ...] = ()
-    """What of the file could not be read, place by place, each in one line"""
-    faults: Sequence[str] | None = None
-    """Why a sample holds no pair of tensions, a `Reason` or empty; None: nothing is known"""
-    in_newtons: bool = False
-    """Whether the tensions are in N for certain, so that no gain or bias applies to them"""
     readings: tuple[Floats, Floats] | None = None
     """What was recorded of cables l and s, where a gain and bias made tensions of it"""
-    notes: tuple[str, ...] = ()
-    """What was recognised in the file, and what else is to be known of it, each in one line"""
-    base_tilt: Floats | None = None
-    """Measured γ in rad, the tilt of the base in the plane of bending towards cable s, likewise"""
-    base_roll: Floats | None = None
-    """Measured tilt of the base out of that plane in rad, beside `base_tilt`; None: it has none"""
-    tip_force_x: Floats | None = None
-    """Measured force at the tip in N in the joint frame, along X, likewise"""
-    tip_force_z: Floats | None = None
-    """Along Z"""
 
     def __post_init__(self) -> None:
         """Take whatever NumPy can make an array of.
@@ -79,50 +40,18 @@ class Recording:
         RecordingError
             If the arrays are not of one length.
         """
-        for quantity in QUANTITIES:
+        object.__setattr__(self, 'tension_l', numbers_of(self.tension_l))
+        for quantity in ('tension_s', 'bend_angle', 'pressure'):
             values = getattr(self, quantity)
             if values is not None:
-                values = np.atleast_1d(np.asarray(values, dtype=np.float64))
-                object.__setattr__(self, quantity, values)
-                _check_length(quantity, values, len(self))
+                object.__setattr__(self, quantity, self._array(quantity, values))
         if self.state is not None:
-            object.__setattr__(self, 'state', list(self.state))
-            _check_length('state', self.state, len(self))
-        if self.faults is not None:
-            object.__setattr__(self, 'faults', list(self.faults))
-            _check_length('faults', self.faults, len(self))
-        for lines in ('damage', 'notes'):
-            object.__setattr__(self, lines, tuple(map(one_line, getattr(self, lines))))
+            object.__setattr__(self, 'state', self._list('state', self.state))
+        super().__post_init__()
 
-    def __len__(self) -> int:
-        return len(self.tension_l)
-
-    def tensions(self) -> list[tuple[float, float]]:
-        """T_l and T_s of every sample, as plain numbers in N."""
-        return list(zip(self.tension_l.tolist(), self.tension_s.tolist(), strict=True))
-
-    def loads(self, load: Load) -> Load | list[Load]:
-        """Return what acts beside the cables: one load, or that of each sample.
-
-        Where it was not measured it is what it was before, as the node takes it, and at the
-        beginning what it came to be.
-
-        Parameters
-        ----------
-        load : Load
-            What of it was not recorded.
-        """
-        if not self.has_load:
-            return load
-        return SampleLoads.of(
-            load,
-            len(self),
-            **{
-                quantity: None if values is None else _last_known(values)
-                for quantity in OF_LOAD
-                for values in [getattr(self, quantity)]
-            },
-        ).loads()
+    def cables(self) -> tuple[Floats, Floats]:
+        """T_l and T_s in N."""
+        return self.tension_l, self.tension_s
 
     def part(self, which: npt.NDArray[np.bool_]) -> Recording:
         """Return a recording of some of the samples, given as an array of shape ``(n,)``."""
@@ -149,86 +78,3 @@ class Recording:
             faults=texts(self.faults),
             readings=None if readings is None else (readings[0][chosen], readings[1][chosen]),
         )
-
-    @property
-    def has_load(self) -> bool:
-        """Whether anything of the load was measured."""
-        return any(getattr(self, quantity) is not None for quantity in OF_LOAD)
-
-    @property
-    def known_faults(self) -> Sequence[str]:
-        """Why each sample holds no pair of tensions; empty where nothing is known."""
-        return [''] * len(self) if self.faults is None else self.faults
-
-    @property
-    def damage_summary(self) -> str:
-        """What could not be read, in one line; empty if all could."""
-        return summary_of_damage(self.damage)
-
-    @property
-    def disorder(self) -> str:
-        """Where time goes back from one sample to the next, in one line; empty if nowhere.
-
-        A sample without a time is taken to stand where it belongs.
-        """
-        if self.time is None:
-            return ''
-        timed = np.flatnonzero(~np.isnan(self.time))
-        back = timed[1:][self.time[timed[1:]] < self.time[timed[:-1]]]
-        if not len(back):
-            return ''
-        before = timed[np.searchsorted(timed, back[0]) - 1]
-        more = f', and back at {len(back) - 1} more' if len(back) > 1 else ''
-        return (
-            f'time goes back from {self.time[before]:.9g} s to {self.time[back[0]]:.9g} s '
-            f'at sample {back[0] + 1} of {len(self)}{more}'
-        )
-
-    def in_order(self) -> Recording:
-        """Return the recording if no sample is earlier than the one before it.
-
-        Raises
-        ------
-        RecordingError
-            If one is; the text names the first.
-        """
-        if self.disorder:
-            raise RecordingError(
-                f'{self.name}: {self.disorder}: sort it by time, or, if its order is right, leave '
-                'the times out or, of a bag, take those of recording (--clock log)'
-            )
-        return self
-
-    def whole(self) -> Recording:
-        """Return the recording if all of its file could be read.
-
-        Raises
-        ------
-        RecordingError
-            If not; the text names what could not.
-        """
-        if self.damage:
-            raise RecordingError(f'{self.name}: {self.damage_summary}')
-        return self
-
-
-def summary_of_damage(places: Sequence[str]) -> str:
-    """Return what could not be read, in one line."""
-    named = '; '.join(places[:MOST_NAMED])
-    more = len(places) - MOST_NAMED
-    return named + (f'; and {more} more such places' if more > 0 else '')
-
-
-def _last_known(values: Floats) -> Floats:
-    """Values with the last known one in place of every NaN, and the first one before it."""
-    known = np.flatnonzero(np.isfinite(values))
-    if not len(known):
-        return np.zeros(len(values))
-    places = np.searchsorted(known, np.arange(len(values)), side='right') - 1
-    filled: Floats = values[known[places.clip(0)]]
-    return filled
-
-
-def _check_length(name: str, values: Sequence[Any] | Floats, length: int) -> None:
-    if len(values) != length:
-        raise RecordingError(f'there are {length} values of tension_l and {len(values)} of {name}')

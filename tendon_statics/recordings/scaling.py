@@ -1,19 +1,24 @@
-"""From what was recorded of a unit to its tensions in N, as the estimator takes them."""
+"""From what was recorded to tensions in N, as the estimator of the unit or arm takes them."""
 
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..physics.calibration.load_cells import AS_MEASURED, LoadCells
-from ..tensions.cable_scale import scaled_arrays
+from ..tensions.cable_scale import CableScale, scaled_arrays
 from ..tensions.reason import Reason
+from ..tensions.watch import Plausibility
+from .arm_recording import ArmRecording
 from .recording import Recording
+from .session import Floats, Session
 
 if TYPE_CHECKING:
+    from ..estimation.arm_settings import ArmSettings
     from ..files.unit_file import Unit
 
 
@@ -23,18 +28,11 @@ def of_unit(recording: Recording, unit: Unit) -> Recording:
     Gain and bias of each cable apply to what was recorded, unless that is in N for certain; the
     largest plausible tension always does. What was recorded stays in `Recording.readings`.
     """
-    scales = [unit.cable_l, unit.cable_s]
-    applies = not (recording.in_newtons or all(scale.is_identity for scale in scales))
-    if not applies:
-        scales = [scale._replace(gain=1.0, bias=0.0) for scale in scales]
-    (tension_l, reasons_l), (tension_s, reasons_s) = (
-        scaled_arrays(readings, scale)
-        for readings, scale in zip((recording.tension_l, recording.tension_s), scales, strict=True)
-    )
-    found = worse_reasons(reasons_l, reasons_s)
-    faults = [
-        before or now for before, now in zip(recording.known_faults, found.tolist(), strict=True)
-    ]
+    scales = {'cable_l': unit.cable_l, 'cable_s': unit.cable_s}
+    applies, (tension_l, tension_s), faults = _in_newtons(recording, [*scales.values()])
+    believed = unit.settings.plausibility
+    limited = any(f'{name}.max_tension' in unit.parameters for name in scales)
+    said = [*unit.misspelt, *_said(scales, believed, recording, applies, limited=limited)]
     return dataclasses.replace(
         recording,
         tension_l=tension_l,
@@ -42,21 +40,62 @@ def of_unit(recording: Recording, unit: Unit) -> Recording:
         readings=(recording.tension_l, recording.tension_s) if applies else None,
         in_newtons=True,
         faults=faults,
-        notes=(*recording.notes, *_said(unit, recording, applies)),
+        notes=(*recording.notes, *said),
     )
 
 
-def worse_reasons(
-    reasons_l: NDArray[np.object_], reasons_s: NDArray[np.object_]
-) -> NDArray[np.str_]:
-    """Return for each pair the reason that counts, empty if there is none: `worse` over arrays."""
-    words_l, words_s = (
-        np.array([reason.value if reason else '' for reason in reasons.tolist()], dtype='<U24')
-        for reasons in (reasons_l, reasons_s)
+def of_arm(
+    recording: ArmRecording, settings: ArmSettings, given: Collection[str] = ()
+) -> ArmRecording:
+    """Return the same of an arm, as the estimator with these settings would find it.
+
+    Parameters
+    ----------
+    given : collection of str
+        Names of the parameters that a file gives.
+    """
+    names = settings.arm.cable_names
+    scales = {f'cables.{name}': of for name, of in zip(names, settings.scales, strict=True)}
+    applies, tensions, faults = _in_newtons(recording, [*scales.values()])
+    limited = any(f'{name}.max_tension' in given for name in scales)
+    said = _said(scales, settings.plausibility, recording, applies, limited=limited)
+    return dataclasses.replace(
+        recording,
+        cable_tensions=dict(zip(names, tensions, strict=True)),
+        readings=recording.cable_tensions if applies else None,
+        in_newtons=True,
+        faults=faults,
+        notes=(*recording.notes, *said),
     )
+
+
+def _in_newtons(
+    recording: Session, scales: Sequence[CableScale]
+) -> tuple[bool, list[Floats], list[str]]:
+    """Whether gain and bias apply, the tensions in N, and why each sample has none."""
+    applies = not (recording.in_newtons or all(scale.is_identity for scale in scales))
+    if not applies:
+        scales = [scale._replace(gain=1.0, bias=0.0) for scale in scales]
+    found = [
+        scaled_arrays(readings, scale)
+        for readings, scale in zip(recording.cables(), scales, strict=True)
+    ]
+    worst = worse_reasons(*(reasons for _, reasons in found)).tolist()
+    faults = [before or now for before, now in zip(recording.known_faults, worst, strict=True)]
+    return applies, [tensions for tensions, _ in found], faults
+
+
+def worse_reasons(*reasons: NDArray[np.object_]) -> NDArray[np.str_]:
+    """Return of the cables' reasons the one that counts, empty if none: `worse` over arrays."""
+    words = [
+        np.array([reason.value if reason else '' for reason in of_cable.tolist()], dtype='<U24')
+        for of_cable in reasons
+    ]
+    worst = words[-1]
+    for word in words[-2::-1]:
+        worst = np.where(word == '', worst, word)
     implausible = Reason.IMPLAUSIBLE.value
-    first: NDArray[np.str_] = np.where(words_l == '', words_s, words_l)
-    return np.where((words_l == implausible) | (words_s == implausible), implausible, first)
+    return np.where(np.any([word == implausible for word in words], axis=0), implausible, worst)
 
 
 def corrected(recording: Recording, cells: LoadCells) -> Recording:
@@ -67,11 +106,17 @@ def corrected(recording: Recording, cells: LoadCells) -> Recording:
     return dataclasses.replace(recording, tension_l=tension_l, tension_s=tension_s)
 
 
-def _said(unit: Unit, recording: Recording, applies: bool) -> list[str]:
-    """Say what of the unit's file was applied, and what was not."""
-    scales = {'cable_l': unit.cable_l, 'cable_s': unit.cable_s}
+def _said(
+    scales: Mapping[str, CableScale],
+    believed: Plausibility,
+    recording: Session,
+    applies: bool,
+    *,
+    limited: bool,
+) -> list[str]:
+    """Say what of the parameter file was applied, and what was not."""
     given = [name for name in scales if not scales[name].is_identity]
-    found = list(unit.misspelt)
+    found = []
     if applies:
         found += [
             f'{cable}: tension = {scale.gain:g} · reading {scale.bias:+g} N, of the design file'
@@ -82,14 +127,12 @@ def _said(unit: Unit, recording: Recording, applies: bool) -> list[str]:
             f'gain and bias of {" and ".join(given)} in the design file are not applied: the '
             'tensions were recorded in N'
         )
-    largest = {name: scale.max_tension for name, scale in scales.items()}
-    if any(f'{name}.max_tension' in unit.parameters for name in scales):
+    if limited:
         found.append(
             'tensions above '
-            + ', '.join(f'{limit:g} N ({name})' for name, limit in largest.items())
+            + ', '.join(f'{scale.max_tension:g} N ({name})' for name, scale in scales.items())
             + ' are implausible, by the design file'
         )
-    believed = unit.settings.plausibility
     if believed.max_rate > 0.0 and recording.time is None:
         found.append(
             'max_tension_rate of the design file is not checked: there are no times '

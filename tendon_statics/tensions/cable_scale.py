@@ -94,7 +94,8 @@ def scaled_arrays(
         tensions = scale.gain * readings + scale.bias
         tensions = np.where(abs(tensions) < ROUNDING * abs(scale.bias), 0.0, tensions)
     reasons = np.full(len(tensions), None, dtype=object)
-    reasons[tensions < scale.lowest] = Reason.NEGATIVE
-    reasons[abs(tensions) > scale.max_tension] = Reason.IMPLAUSIBLE
+    outside = ~((scale.lowest <= tensions) & (tensions <= scale.max_tension))
+    reasons[outside] = Reason.NEGATIVE
+    reasons[outside & (abs(tensions) > scale.max_tension)] = Reason.IMPLAUSIBLE
     reasons[~np.isfinite(tensions)] = Reason.NOT_FINITE
     return tensions, reasons

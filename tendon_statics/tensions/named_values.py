@@ -1,4 +1,4 @@
-"""The values of the two cables among those that a message gives by name."""
+"""The values of the cables among those that a message gives by name."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from .reason import Fault, Reason
 
 
 class NamedValues(NamedTuple):
-    """What a message with names says of the two cables; all None if it is not about them."""
+    """What a message with names says of the cables."""
 
-    value_l: float | None = None
-    """None if the message does not have it"""
-    value_s: float | None = None
+    values: tuple[float | None, ...] = ()
+    """In the order of the cables, None of each that the message does not have; empty if it has
+    none of them"""
     fault: Fault | None = None
     """Why a message that is about the cables has no values"""
 
     @property
     def is_foreign(self) -> bool:
-        """Whether the message is about neither cable, and so meant for others."""
-        return self == (None, None, None)
+        """Whether the message is about no cable, and so meant for others."""
+        return self.fault is None and not self.values
 
 
 def cable_values(
     names: Sequence[str], values: Sequence[Any], cables: Sequence[str], field: str = 'effort'
 ) -> NamedValues:
-    """Find the values of both cables, or of the one that the message is about.
+    """Find the values of all cables, or of those that the message is about.
 
     A message with other names only is foreign, whatever else is wrong with it. One that names a
     cable has to name it once and to have as many values as names: else it is not known whose they
@@ -35,7 +35,7 @@ def cable_values(
     Parameters
     ----------
     cables : sequence of str
-        Names of cables l and s.
+        Names of the cables, in their order.
     field : str
         What the values are called in the message.
     """
@@ -48,5 +48,4 @@ def cable_values(
         if list(names).count(cable) > 1:
             return NamedValues(fault=(Reason.WRONG_LENGTH, f'{cable} stands twice in the names'))
     held = dict(zip(names, values, strict=True))
-    value_l, value_s = (held.get(cable) for cable in cables)
-    return NamedValues(value_l, value_s)
+    return NamedValues(tuple(held.get(cable) for cable in cables))

@@ -1,91 +1,124 @@
-"""Two streams of values, one of each cable, as pairs of one time."""
+"""Streams of values, each of one cable or several, as sets of all cables at one time."""
 
 from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
+from .stamp_order import NANOSECONDS
+
 MOST_WAITING = 1000
-"""Values of one cable that wait for those of the other"""
-
-NANOSECONDS = 1_000_000_000
+"""Parts of one stream that wait for those of the others"""
 
 
-class Single(NamedTuple):
-    """What was measured of one cable."""
+class Part(NamedTuple):
+    """What was measured at one time of one cable, or of several together."""
 
     time: int
     """ns"""
-    value: float
+    values: Mapping[int, float]
+    """By the number of the cable, from 0 on"""
     source: Any = None
-    """Whatever the pair should carry along"""
+    """Whatever the whole should carry along"""
 
 
 class Pairing:
-    """Pairs each value with the nearest one of the other cable that is free when the later comes.
+    """Joins parts to wholes: each with the nearest ones of the others when the last of them comes.
+
+    Parts of the same cables are a stream. Where a part comes of other cables than any before, the
+    streams with which it shares a cable have ended.
 
     Parameters
     ----------
+    count : int
+        How many cables there are.
     max_skew : callable
-        Returns the most that two times of a pair may differ, in s.
+        Returns the most that two times of a whole may differ, in s.
     deliver : callable
-        Takes a pair, cable l first.
+        Takes the parts of a whole, in the order of their cables.
     drop : callable
-        Takes a value that has no partner, with its cable, 0 for l and 1 for s.
+        Takes a part that has no partner.
     """
 
     def __init__(
         self,
+        count: int,
         max_skew: Callable[[], float],
-        deliver: Callable[[Single, Single], None],
-        drop: Callable[[int, Single], None],
+        deliver: Callable[[list[Part]], None],
+        drop: Callable[[Part], None],
     ) -> None:
+        self._count = count
         self._max_skew = max_skew
         self._deliver = deliver
         self._drop = drop
-        self._waiting: tuple[deque[Single], deque[Single]] = (deque(), deque())
-        self._paired = [-math.inf, -math.inf]
+        self._waiting: dict[tuple[int, ...], deque[Part]] = {}
+        """Stream, by its cables → its parts"""
+        self._joined: dict[tuple[int, ...], float] = {}
+        """Stream → time of the newest part that was delivered"""
 
-    def take(self, cable: int, single: Single) -> None:
-        """Take a value of cable 0 (l) or 1 (s)."""
-        waiting = self._waiting[cable]
-        while waiting and waiting[-1].time >= single.time:  # The stream has started over.
-            self._drop_first(cable)
-        waiting.append(single)
+    def take(self, part: Part) -> None:
+        """Take a part; it has some of the cables, not all."""
+        stream = tuple(part.values)
+        if stream not in self._waiting:
+            self._begin(stream)
+        waiting = self._waiting[stream]
+        while waiting and waiting[-1].time >= part.time:  # The stream has started over.
+            self._drop(waiting.popleft())
+        waiting.append(part)
         if len(waiting) > MOST_WAITING:
-            self._drop_first(cable)
-        self._pair()
+            self._drop(waiting.popleft())
+        if sum(map(len, self._waiting)) == self._count:
+            self._join()
 
     def forget(self) -> None:
-        """Drop what waits, and forget what was paired."""
-        self._paired = [-math.inf, -math.inf]
-        for cable, waiting in enumerate(self._waiting):
+        """Drop what waits, and forget what was joined."""
+        for waiting in self._waiting.values():
             while waiting:
-                self._drop_first(cable)
+                self._drop(waiting.popleft())
+        self._waiting.clear()
+        self._joined.clear()
 
-    def _pair(self) -> None:
-        """Deliver every pair, and drop what has no partner any more."""
-        at_l, at_s = self._waiting
+    def _begin(self, stream: tuple[int, ...]) -> None:
+        for other in [other for other in self._waiting if not set(other).isdisjoint(stream)]:
+            for part in self._waiting.pop(other):
+                self._drop(part)
+            del self._joined[other]
+        self._waiting[stream] = deque()
+        self._joined[stream] = -math.inf
+        self._waiting = dict(sorted(self._waiting.items()))
+
+    def _join(self) -> None:
+        """Deliver every whole, and drop what has no partner any more."""
         skew = self._max_skew() * NANOSECONDS
-        while at_l and at_s:
-            difference = at_l[0].time - at_s[0].time
-            if abs(difference) > skew:
-                self._drop_first(0 if difference < 0 else 1)
+        while all(self._waiting.values()):
+            first = {stream: waiting[0] for stream, waiting in self._waiting.items()}
+            earliest = min(first, key=lambda stream: first[stream].time)
+            latest = max(part.time for part in first.values())
+            if latest - first[earliest].time > skew:
+                self._drop(self._waiting[earliest].popleft())
                 continue
-            # Where max_skew exceeds the period, one lost message must not shift all pairs after
-            # it: what is much nearer to a message that already has a partner is left out. Not
-            # what is a little nearer: cells that run freely may be half a period apart.
-            if abs(at_l[0].time - self._paired[1]) < 0.5 * abs(difference):
-                self._drop_first(0)
+            late = next((stream for stream in first if self._is_left_over(stream, first)), None)
+            if late is not None:
+                self._drop(self._waiting[late].popleft())
                 continue
-            if abs(at_s[0].time - self._paired[0]) < 0.5 * abs(difference):
-                self._drop_first(1)
-                continue
-            value_l, value_s = at_l.popleft(), at_s.popleft()
-            self._paired = [value_l.time, value_s.time]
-            self._deliver(value_l, value_s)
+            for stream, waiting in self._waiting.items():
+                self._joined[stream] = waiting.popleft().time
+            self._deliver(list(first.values()))
 
-    def _drop_first(self, cable: int) -> None:
-        self._drop(cable, self._waiting[cable].popleft())
+    def _is_left_over(
+        self, stream: tuple[int, ...], first: Mapping[tuple[int, ...], Part]
+    ) -> bool:
+        """Whether a part belongs to the whole before, where its stream has been replaced.
+
+        Where max_skew exceeds the period, one lost message must not shift all wholes after it:
+        what is much nearer to a part that already has its partners is left out. Not what is a
+        little nearer: n streams that run freely may be a nth of a period apart.
+        """
+        time = first[stream].time
+        apart = max(abs(part.time - time) for part in first.values())
+        before = min(
+            abs(time - joined) for other, joined in self._joined.items() if other != stream
+        )
+        return before < 0.5 * apart / (len(first) - 1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from statistics import fmean, stdev
 from typing import NamedTuple
 
@@ -15,8 +15,6 @@ FEWEST = 20
 STILL = 3.0
 """Standard deviations of the stated noise within which a slack cable's readings scatter, and
 halves of them differ"""
-
-NAMES = ('cable_l', 'cable_s')
 
 
 class TareError(TendonStaticsError, ValueError):
@@ -42,29 +40,33 @@ class CableTare(NamedTuple):
         """Bias in N with which the mean is 0."""
         return self.old_bias - self.mean
 
-    def doubt(self, weight: float) -> str:
-        """Say that the cable may have been taut, if it read more than the unit's weight in N."""
+    def doubt(self, weight: float, what: str = 'unit') -> str:
+        """Say that the cable may have been taut, if it read more than a weight in N.
+
+        Parameters
+        ----------
+        what : str
+            Whose weight it is.
+        """
         if not abs(self.mean) > weight:
             return ''
         return (
-            f'{self.cable} read {self.mean:.4g} N, more than the weight of the unit: if it was '
+            f'{self.cable} read {self.mean:.4g} N, more than the weight of the {what}: if it was '
             'taut, this bias is wrong'
         )
 
 
 def tare(
-    tensions_l: Sequence[float],
-    tensions_s: Sequence[float],
-    biases: tuple[float, float],
-    tension_stddev: float,
-) -> tuple[CableTare, CableTare]:
-    """Find the biases of both cables from what was measured while both were slack.
+    tensions: Mapping[str, Sequence[float]], biases: Sequence[float], tension_stddev: float
+) -> list[CableTare]:
+    """Find the biases of all cables from what was measured while all were slack.
 
     Parameters
     ----------
-    tensions_l, tensions_s : sequence of float
-        N, with the biases as they are, in the order of time; what is not finite does not count.
-    biases : tuple of float
+    tensions : mapping
+        Of each cable by name in N, with the biases as they are, in the order of time; what is not
+        finite does not count.
+    biases : sequence of float
         As they are, in N.
     tension_stddev : float
         Standard deviation of the noise of each tension in N.
@@ -74,11 +76,10 @@ def tare(
     TareError
         If there are too few readings, or a cable was not still; the text says which.
     """
-    of_l, of_s = (
-        _of_cable(name, tensions, bias, tension_stddev)
-        for name, tensions, bias in zip(NAMES, (tensions_l, tensions_s), biases, strict=True)
-    )
-    return of_l, of_s
+    return [
+        _of_cable(name, of_cable, bias, tension_stddev)
+        for (name, of_cable), bias in zip(tensions.items(), biases, strict=True)
+    ]
 
 
 def _of_cable(

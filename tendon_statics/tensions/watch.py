@@ -1,4 +1,4 @@
-"""Whether the tensions of a unit can be believed, and whether a cable is slack.
+"""Whether the tensions of cables can be believed, and whether one is slack.
 
 One reading by itself does not tell: what a load cell said before it counts.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from .cable_scale import RELEASE, CableScale
@@ -96,25 +97,31 @@ class CellWatch:
         self.newest, self.time = tension, time
 
 
-class PairWatch:
-    """Watches the load cells of both cables of a unit."""
+class TensionWatch:
+    """Watches the load cells of all cables, by default of the two of a unit.
 
-    def __init__(self) -> None:
-        self._cells = CellWatch('tension_l'), CellWatch('tension_s')
-        self._switches = SlackSwitch(), SlackSwitch()
+    Parameters
+    ----------
+    names : sequence of str
+        What the tensions are called.
+    """
+
+    def __init__(self, names: Sequence[str] = ('tension_l', 'tension_s')) -> None:
+        self._cells = [CellWatch(name) for name in names]
+        self._switches = [SlackSwitch() for _ in names]
 
     def take(
         self,
-        tensions: tuple[float, float],
+        tensions: Sequence[float],
         time: float,
-        scales: tuple[CableScale, CableScale],
+        scales: Sequence[CableScale],
         believed: Plausibility,
-    ) -> tuple[float, float]:
-        """Return both tensions in N, 0 of a slack cable.
+    ) -> tuple[float, ...]:
+        """Return all tensions in N, 0 of a slack cable.
 
         Parameters
         ----------
-        tensions : tuple of float
+        tensions : sequence of float
             In N, within the scales' limits.
         time : float
             When they were measured, in s; NaN if that is not known.
@@ -133,10 +140,9 @@ class PairWatch:
                     faults.append(error)
             if faults:
                 raise faults[0]
-        (at_l, at_s), (of_l, of_s) = self._switches, scales
-        tension_l, tension_s = tensions
-        if at_l.take(tension_l, of_l.slack_threshold):
-            tension_l = 0.0
-        if at_s.take(tension_s, of_s.slack_threshold):
-            tension_s = 0.0
-        return tension_l, tension_s
+        return tuple(
+            [
+                0.0 if switch.take(tension, scale.slack_threshold) else tension
+                for switch, tension, scale in zip(self._switches, tensions, scales, strict=True)
+            ]
+        )

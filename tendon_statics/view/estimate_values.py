@@ -1,4 +1,4 @@
-"""What is drawn of a message ``Estimate``, in the units of the page."""
+"""What is shown of a message ``Estimate``, in words and in drawings alike."""
 
 from __future__ import annotations
 
@@ -6,16 +6,42 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from ..estimation.regimes import REGIME_COLOURS
 from ..physics import Load, LoadError, Regime
 from .history import Sample
 
 COVERAGE = 2.0
 """Standard deviations on either side, where an estimate has no interval of its own"""
 
+OLD = 2.0
+"""Seconds after which an estimate counts as one that was"""
+
+GREY = '#777777'
+"""Of what has no regime, and of what was"""
+
+
+def is_present(said: str, age: float) -> bool:
+    """Whether an estimate is of now, and not the last that was known.
+
+    Parameters
+    ----------
+    said
+        ``invalid`` or ``stale``, if the estimator said so after it.
+    age
+        Seconds since it came.
+    """
+    return not said and age <= OLD
+
+
+def colour_of(estimate: Any, *, present: bool) -> str:
+    """Return the colour that stands for an estimate, that of its regime while it is of now."""
+    regime = regime_of(estimate)
+    return REGIME_COLOURS[regime] if regime and present else GREY
+
 
 def sample_of(estimate: Any) -> Sample:
     """Return what is drawn of an estimate; angles in degrees."""
-    low, high = (math.degrees(end) for end in angle_interval(estimate))
+    low, high = map(math.degrees, angle_interval(estimate) or (math.nan, math.nan))
     ends = [math.degrees(end) for end in estimate.admissible_angles]
     spread = COVERAGE * estimate.pressure_stddev
     return Sample(
@@ -37,15 +63,19 @@ def pairs_of(ends: Sequence[float]) -> Iterator[tuple[float, float]]:
     return zip(ends[::2], ends[1::2], strict=False)
 
 
-def angle_interval(estimate: Any) -> tuple[float, float]:
-    """Return the ends in rad of where the angle is, NaN if that is not known.
+def angle_interval(estimate: Any) -> tuple[float, float] | None:
+    """Return the ends in rad of where the angle is, within a half turn; None if it is not known.
 
-    That is the interval that the estimator gives, else `COVERAGE` standard deviations.
+    That is the interval that the estimator gives, else `COVERAGE` standard deviations. Without an
+    angle there is none: an interval is about the angle that is told.
     """
-    if not math.isnan(estimate.bend_angle_low):
-        return estimate.bend_angle_low, estimate.bend_angle_high
     angle, spread = estimate.bend_angle, COVERAGE * estimate.bend_angle_stddev
-    return angle - spread, angle + spread
+    low, high = estimate.bend_angle_low, estimate.bend_angle_high
+    if math.isnan(low):
+        low, high = angle - spread, angle + spread
+    if not all(map(math.isfinite, (angle, low, high))):
+        return None
+    return max(low, -math.pi), min(high, math.pi)
 
 
 def load_of(estimate: Any) -> Load | None:

@@ -13,7 +13,7 @@ from bokeh.models import ColumnDataSource, CustomJS, Div, Select, Toggle
 
 from ..estimation.regimes import REGIME_COLOURS
 from ..physics import JointDesign
-from .estimate_values import regime_probabilities
+from .estimate_values import is_present, regime_probabilities
 from .estimators_in_sight import Sighting, estimators_in_sight
 from .history import COLUMNS
 from .map_figure import NOT_SEATED, ON_MAP, MapFigure
@@ -149,23 +149,26 @@ class Page:
         self._times.move_on(local_clock(1e3 * time.time()))
         estimate = watch.estimate
         if estimate is not None:
-            self._draw_estimate(watch, estimate)
+            self._draw_estimate(watch, estimate, now - watch.estimated_at)
         if are_words_due:
+            age, is_drawn = now - watch.estimated_at, watch.design is not None
             state = (
                 waiting(watch.sighting.name)
                 if estimate is None
-                else state_words(estimate, watch.said, now - watch.estimated_at)
+                else state_words(estimate, watch.said, age, is_drawn=is_drawn)
             )
             self._say(state, diagnostics_words(watch.diagnostics, now - watch.diagnosed_at))
 
-    def _draw_estimate(self, watch: UnitWatch, estimate: Any) -> None:
+    def _draw_estimate(self, watch: UnitWatch, estimate: Any, age: float) -> None:
         design = watch.design
-        if design is not None and design != self._design:
+        if design != self._design:
             self._design = design
-            self._unit.draw_design(design)
-            self._times.draw_design(design)
+            self._unit.clear()
+            if design is not None:
+                self._unit.draw_design(design)
+                self._times.draw_design(design)
         if design is not None:
-            self._unit.draw(design, estimate)
+            self._unit.draw(design, estimate, present=is_present(watch.said, age))
         self._map.draw(design, estimate)
         self._probabilities.draw(regime_probabilities(estimate))
 

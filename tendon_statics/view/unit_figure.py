@@ -8,9 +8,8 @@ from typing import Any
 from bokeh.models import Arrow, ColumnDataSource, NormalHead, Range1d
 from bokeh.plotting import figure
 
-from ..estimation.regimes import REGIME_COLOURS
 from ..physics import JointDesign, Load
-from .estimate_values import angle_interval, load_of, pairs_of, regime_of
+from .estimate_values import angle_interval, colour_of, load_of, pairs_of
 
 INK, PALE, GRAVITY = '#222222', '#e4e4e4', '#555555'
 
@@ -119,20 +118,18 @@ class UnitFigure:
             'y': [reach * math.cos(stop) for stop in stops],
         }
 
-    def draw(self, design: JointDesign, estimate: Any) -> None:
-        """Draw an estimate; what it does not determine is left out."""
+    def draw(self, design: JointDesign, estimate: Any, *, present: bool = True) -> None:
+        """Draw an estimate, grey if it is not of now; what it does not determine is left out."""
         angle, reach = estimate.bend_angle, _reach(design)
         band_inner, band_outer, inner, outer = (reach + beyond for beyond in ARCS)
-        regime = regime_of(estimate)
-        colour = REGIME_COLOURS[regime] if regime else GRAVITY
+        colour = colour_of(estimate, present=present)
         arcs = [
             (low, high, band_inner, band_outer, colour, 0.35)
             for low, high in pairs_of(list(estimate.admissible_angles))
         ]
-        low, high = angle_interval(estimate)
-        if math.isfinite(low) and math.isfinite(high):
-            low, high = max(low, -math.pi), min(high, math.pi)
-            arcs.append((low, high, inner, outer, INK, 0.6))
+        interval = angle_interval(estimate)
+        if interval:
+            arcs.append((*interval, inner, outer, INK, 0.6))
         load = load_of(estimate)
         new = arcs, angle, colour, load
         if new == self._drawn:
@@ -147,6 +144,8 @@ class UnitFigure:
 
     def clear(self) -> None:
         """Draw nothing any more, as of an estimator that is left."""
+        self._base.data = {'width': [], 'height': [], 'y': []}
+        self._stops.data = {'x': [], 'y': []}
         self._arcs.data = _arcs([])
         self._body.data = _body(None, math.nan, '')
         self._arrows.data = _arrows([])

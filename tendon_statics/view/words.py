@@ -7,9 +7,18 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from typing import Any
 
-from ..estimation.regimes import INVALID, REGIME_COLOURS, STALE
+from ..estimation.regimes import INVALID, STALE
 from ..physics import Regime
-from .estimate_values import COVERAGE, angle_interval, regime_of
+from .estimate_values import (
+    COVERAGE,
+    GREY,
+    OLD,
+    angle_interval,
+    colour_of,
+    is_present,
+    pairs_of,
+    regime_of,
+)
 
 REGIMES = {
     Regime.EQUILIBRIUM: (
@@ -43,11 +52,15 @@ STYLE = """
 NOT_DETERMINED = 'Where in the band it is, the tensions alone do not tell.'
 
 WITHOUT_ESTIMATE = {
-    INVALID: (INVALID, 'The newest reading is no pair of tensions that the model takes.'),
-    STALE: (STALE, 'No valid tensions come any more; what is drawn is the last that was known.'),
+    INVALID: 'The newest reading is no pair of tensions that the model takes.',
+    STALE: 'No valid tensions come any more.',
+    '': 'Nothing comes from it any more.',
 }
+"""What the estimator says in place of an estimate, ``''`` for nothing → what that means"""
 
-GREY = '#777777'
+LAST_KNOWN = 'What is drawn and listed is the last that was known.'
+
+NO_DESIGN = 'It does not tell the design of its unit, without which the unit is not drawn.'
 
 LEVELS = ('OK', 'WARN', 'ERROR', 'STALE')
 """Words for the levels of ``/diagnostics``, by their numbers"""
@@ -73,7 +86,7 @@ def waiting(name: str) -> str:
     )
 
 
-def state_words(estimate: Any, said: str, age: float) -> str:
+def state_words(estimate: Any, said: str, age: float, *, is_drawn: bool = True) -> str:
     """Say what an estimate is, and what casts doubt on it.
 
     Parameters
@@ -82,39 +95,50 @@ def state_words(estimate: Any, said: str, age: float) -> str:
         ``invalid`` or ``stale``, if the estimator said so after it.
     age
         Seconds since it came.
+    is_drawn
+        Whether the unit's design is known, so that it is drawn.
     """
     regime = regime_of(estimate)
     name, meaning = REGIMES[regime] if regime else (estimate.regime, '')
-    colour = REGIME_COLOURS[regime] if regime else GREY
-    if said:
-        name, meaning = WITHOUT_ESTIMATE[said]
-        colour = GREY
-    elif regime is Regime.HELD and math.isnan(estimate.bend_angle):
-        meaning += f' {NOT_DETERMINED}'
+    present = is_present(said, age)
+    colour = colour_of(estimate, present=present)
+    if not present:
+        name, meaning = said or name, f'{WITHOUT_ESTIMATE[said]} {LAST_KNOWN}'
+    elif regime is Regime.HELD and not math.isfinite(estimate.bend_angle):
+        meaning += f' {NOT_DETERMINED}' if estimate.admissible_angles else ''
     numbers = ''.join(
         f'<tr><th>{label}</th><td>{value}</td></tr>' for label, value in _numbers(estimate)
     )
-    old = f' <small>{age:.0f} s ago</small>' if age > 2.0 else ''
+    old = f' <small>{age:.0f} s ago</small>' if age > OLD else ''
+    doubts = [*_doubts(estimate), *([] if is_drawn else [NO_DESIGN])]
     return (
         f'<h2 style="color:{colour}">{escape(name)}{old}</h2><p>{escape(meaning)}</p>'
-        f'<table>{numbers}</table>{_list(_doubts(estimate))}'
+        f'<table>{numbers}</table>{_list(doubts)}'
     )
 
 
 def _numbers(estimate: Any) -> Iterator[tuple[str, str]]:
-    low, high = map(math.degrees, angle_interval(estimate))
     angle = _number(math.degrees(estimate.bend_angle), '.2f', '°')
-    if math.isfinite(low) and math.isfinite(high):
-        angle += f' <small>{low:.1f} to {high:.1f}°</small>'
+    interval = angle_interval(estimate)
+    if interval:
+        angle += f' <small>{_degrees(interval)}</small>'
     pressure = _number(estimate.pressure, '.1f', ' Pa')
-    if math.isfinite(estimate.pressure_stddev):
+    if math.isfinite(estimate.pressure) and math.isfinite(estimate.pressure_stddev):
         pressure += f' <small>± {COVERAGE * estimate.pressure_stddev:.1f}</small>'
     yield 'bend angle', angle
+    if regime_of(estimate) is not Regime.SLACK:
+        bands = pairs_of(list(estimate.admissible_angles))
+        yield 'friction can hold', ', '.join(map(_degrees, bands)) or 'nowhere'
     yield 'pressure', pressure
     yield 'slip margin', _number(estimate.slip_margin, '+.3f', '')
     if math.isfinite(estimate.consistency):
         yield 'consistency', f'{estimate.consistency:.3f}'
     yield 'tensions l, s', f'{estimate.tension_l:.3f} N, {estimate.tension_s:.3f} N'
+
+
+def _degrees(interval: tuple[float, float]) -> str:
+    low, high = map(math.degrees, interval)
+    return f'{low:.1f} to {high:.1f}°'
 
 
 def _number(value: float, form: str, unit: str) -> str:
@@ -124,7 +148,7 @@ def _number(value: float, form: str, unit: str) -> str:
 def _doubts(estimate: Any) -> Iterator[str]:
     if not estimate.load_assured:
         yield 'What tells the load does not come; the last that was known is taken.'
-    if math.isnan(estimate.bend_angle):
+    if not math.isfinite(estimate.bend_angle):
         return
     if estimate.provisional:
         yield 'Provisional: readings to come may take it back.'

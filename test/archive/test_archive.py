@@ -8,6 +8,7 @@ import sys
 import threading
 from contextlib import contextmanager, suppress
 from multiprocessing import forkserver
+from pathlib import Path
 
 import bags
 import dask
@@ -372,6 +373,58 @@ def test_what_lies_elsewhere_is_left_out(tmp_path):
     write_csv(long / 'a.csv', 1, rows=2)
     (name,) = names(long)
     Dataset(tmp_path).part(name).parent.mkdir(parents=True)
+
+
+def test_a_link_to_nothing_is_listed_and_costs_itself_only(cluster, tmp_path, capsys):
+    """As to a disk that is not mounted: a recording, or a folder of them, is not there."""
+    folder, output = tmp_path / 'runs', tmp_path / 'dataset'
+    write_csv(folder / 'whole.csv', 1, rows=5)
+    bag = folder / 'killed'
+    file = write_bag(tmp_path / 'bag', [('/tensions', 0.0, bags.array(1.0, 2.0))])
+    bag.mkdir()
+    shutil.copy(file, bag / 'killed_0.mcap')
+    links = {
+        'run.mcap': 'nowhere.mcap',
+        'day1': '/nowhere/day1',
+        'loop.csv': 'loop.csv',
+        'killed/killed_1.mcap': 'nowhere.mcap',
+        'notes.txt': 'nowhere.txt',
+    }
+    for name, target in links.items():
+        (folder / name).symlink_to(target)
+    code, _, errors = run(cluster, capsys, folder, '--output', output)
+    assert code == 1
+    statuses = {name: row['status'] for name, row in rows(output).items()}
+    assert statuses == {
+        'runs/whole.csv': 'whole',
+        'runs/killed': 'damaged',
+        **dict.fromkeys(('runs/run.mcap', 'runs/day1', 'runs/loop.csv'), 'unreadable'),
+    }
+    assert 'killed_1.mcap is a link to nothing' in errors
+    assert 'run.mcap: it cannot be read: No such file' in errors
+
+
+def test_a_folder_that_cannot_be_entered_or_looked_into_is_given_too(tmp_path, monkeypatch):
+    for name in ('open/a.csv', 'closed/b.csv', 'blind/c.csv'):
+        write_csv(tmp_path / name, 1, rows=2)
+    entries, looked = Path.iterdir, Path.stat
+
+    def iterdir(path):
+        if path.name == 'closed':
+            raise PermissionError(13, 'Permission denied')
+        return entries(path)
+
+    def stat(path, **more):
+        if path.parent.name == 'blind':
+            raise PermissionError(13, 'Permission denied')
+        return looked(path, **more)
+
+    monkeypatch.setattr(Path, 'iterdir', iterdir)
+    monkeypatch.setattr(Path, 'stat', stat)
+    base = tmp_path.name
+    assert [found.name for found in find_recordings([tmp_path])] == [
+        *(f'{base}/blind', f'{base}/closed', f'{base}/open/a.csv')
+    ]
 
 
 @pytest.mark.parametrize(

@@ -30,7 +30,7 @@ def test_track_follows_the_arm_row_by_row():
         state = tracker.update({name: float(row[name]) for name in ARM.cable_names})
         assert float(row['tip_x']) == state.tip.x
         for number, joint in enumerate(state.joints, start=1):
-            assert float(row[f'bend_angle_{number}']) == joint.bend_angle
+            assert float(row[f'estimated_bend_angle_{number}']) == joint.bend_angle
             assert row[f'regime_{number}'] == joint.regime.value
     assert rows[-1]['time'] == '27.0'
 
@@ -118,7 +118,14 @@ def test_plot_draws_the_arm(tmp_path, ending):
         (['margins', FILE, '--tensions', *TENSIONS, TENSIONS[0]], 'is given twice'),
         (['margins', FILE, '--tensions', 'l_mid'], 'needed is CABLE=N'),
         (['margins', FILE, '--tensions', *TENSIONS, '--bend-angles-deg', '1'], 'has 5 joints'),
+        (['margins', FILE, '--tensions', 'l_mid=1,5'], 'decimals take a point: l_mid=1.5'),
         (['track', FILE, 'none.csv'], 'none.csv: it cannot be read'),
+        (['replay', FILE, TABLE, '--output', 'arm.txt'], 'arm.txt: a replay of an arm is written'),
+        (['replay', FILE, TABLE, '--output', TABLE], 'it is the recording itself'),
+        (['report', FILE, TABLE, '--output', 'arm.pdf'], 'a report is written to'),
+        (['replay', FILE, TABLE, '--columns', 'tension_l=a'], "'tension_l' is no quantity"),
+        (['replay', FILE, TABLE, '--tension-stddev', '0'], 'allowed is a finite number above 0'),
+        (['replay', FILE, TABLE, '--parameters', FILE], 'arm.yaml: '),
         (['invert', FILE, '--joint', 9, *RANGE], 'joints 1 to 5'),
         (['invert', FILE, '--joint', 1, *RANGE], 'slips before'),
         ([*PUSHED[:-2], 1, 1], 'a unit vector is needed'),
@@ -137,15 +144,12 @@ HEADER = 'l_mid,s_mid,l_tip,s_tip\n'
 @pytest.mark.parametrize(
     ('text', 'named'),
     [
-        ('', 'there is no row'),
+        ('', 'there is no column l_mid'),
         (HEADER, 'there is no row'),
         ('l_mid,s_mid,l_tip\n1,1,1\n', 'there is no column s_tip'),
-        (f'tip,{HEADER}1,1,1,1,1\n', "column 'tip' is no cable of the arm"),
-        (f'l_mid,{HEADER}1,1,1,1,1\n', 'column l_mid is there twice'),
-        (f'# said\n{HEADER}1,1,1,1\n1,1,x,1\n', "line 4: l_tip is 'x', not a number"),
-        (f'{HEADER}1,1,nan,1\n', "l_tip is 'nan', not a number"),
-        (f'{HEADER}1,1,1\n', 'line 2 has 3 fields, but there are 4 columns'),
-        (f'{HEADER}1,1,1,1\n1,1,1,-1\n', 'row 2: the tension of cable s_tip is -1.0 N'),
+        (f'l_mid,{HEADER}1,1,1,1,1\n', 'there are two columns of l_mid'),
+        ('L_mid,s_mid,l_tip,s_tip\n1,1,1,1\n', "'L_mid', which would be overlooked"),
+        ('l_mid [kg],s_mid,l_tip,s_tip\n1,1,1,1\n', 'the unit of l_mid'),
     ],
 )
 def test_a_table_that_is_none_is_refused_with_its_place(tmp_path, text, named):
@@ -154,11 +158,135 @@ def test_a_table_that_is_none_is_refused_with_its_place(tmp_path, text, named):
     assert_refused(run('arm', 'track', FILE, path), named)
 
 
+def rows_of(done):
+    assert done.returncode in (0, 1), done.stderr
+    return list(csv.DictReader(io.StringIO(done.stdout)))
+
+
 def test_a_slack_arm_leaves_its_fields_empty(tmp_path):
     path = tmp_path / 'tensions.csv'
     path.write_text(f'{HEADER}1,1,0,1\n2,2,2,2\n', encoding='utf-8')
-    first, second = csv.DictReader(io.StringIO(run('arm', 'track', FILE, path).stdout))
+    first, second = rows_of(run('arm', 'track', FILE, path))
     assert first['regime_1'] == 'slack'
-    assert first['bend_angle_1'] == first['tip_x'] == ''
+    assert first['estimated_bend_angle_1'] == first['tip_x'] == ''
     assert second['angle_assured_1'] == 'False'
     assert second['tip_x_stddev'] == ''
+
+
+def test_a_row_that_is_not_valid_says_why_and_casts_doubt(tmp_path):
+    path = tmp_path / 'tensions.csv'
+    path.write_text(f'{HEADER}1,1,1,1\n1,1,1,-1\n1,1,nan,1\n1,1,1,1\nx,1,1,1\n')
+    done = run('arm', 'track', FILE, path)
+    rows = rows_of(done)
+    assert [row['validity'] for row in rows] == ['valid', 'negative', 'not finite', 'valid']
+    assert [row['regime_3'] for row in rows] == ['held', 'invalid', 'invalid', 'held']
+    assert [row['angle_assured_3'] for row in rows] == ['True', 'False', 'False', 'False']
+    assert done.returncode == 1
+    assert 'line 6' in done.stderr
+
+
+def german(path, *more):
+    """The load cycle as a German spreadsheet writes it, with columns of constant value."""
+    lines = [line for line in TABLE.read_text().splitlines() if not line.startswith('#')]
+    titles = 'Zeit;Fz1;s_mid [mN];l_tip;s_tip'
+    rows = [line.split(',') for line in lines[1:]]
+    for row in rows:
+        row[2] = f'{1000.0 * float(row[2]):.1f}'
+    text = [';'.join([titles, *(title for title, _ in more)])]
+    text += [';'.join([*row, *(value for _, value in more)]).replace('.', ',') for row in rows]
+    path.write_text('\n'.join(text) + '\n', encoding='utf-8')
+    return path
+
+
+def test_a_german_table_with_other_titles_and_units_is_the_same_arm(tmp_path):
+    path = german(tmp_path / 'messung.csv', ('Bemerkung', 'gut'))
+    read = ('--columns', 'time=Zeit,l_mid=Fz1')
+    rows, plain = (
+        rows_of(run('arm', 'track', FILE, path, *read)),
+        rows_of(run('arm', 'track', FILE, TABLE)),
+    )
+    assert len(rows) == len(plain)
+    for row, other in zip(rows, plain, strict=True):
+        assert float(row['tip_x']) == pytest.approx(float(other['tip_x']), abs=1e-9)
+        assert row['regime_1'] == other['regime_1']
+
+
+def test_measured_angles_are_compared_joint_by_joint(tmp_path):
+    path = german(tmp_path / 'run.csv', ('bend_angle_1 [deg]', '3.5'), ('bend_angle_5', '0.1'))
+    read = ('--columns', 'time=Zeit,l_mid=Fz1', '--output', tmp_path / 'out.csv')
+    done = run('arm', 'replay', FILE, path, *read)
+    assert 'decimals are written with a comma' in done.stdout
+    table = [[cell.strip() for cell in line.split('|')] for line in done.stdout.splitlines()]
+    titles = next(cells for cells in table if 'rms error [deg]' in cells)
+    errors = {
+        cells[1]: cells[titles.index('rms error [deg]')]
+        for cells in table
+        if len(cells) == len(titles)
+    }
+    with (tmp_path / 'out.csv').open() as file:
+        rows = list(csv.DictReader(file))
+    off = [float(row['estimated_bend_angle_5']) - 0.1 for row in rows]
+    rms = math.degrees(math.sqrt(sum(value**2 for value in off) / len(off)))
+    assert float(errors['5']) == pytest.approx(rms, rel=1e-2)
+    assert errors['1'] != '-'
+    assert errors['2'] == '-'
+    assert float(rows[0]['bend_angle_1']) == pytest.approx(math.radians(3.5))
+
+
+def test_a_gap_in_time_casts_doubt_until_a_stop(tmp_path):
+    path = tmp_path / 'gap.csv'
+    path.write_text(f'time,{HEADER}0,1,1,1,1\n0.1,1,1,1,1\n3,1,1,1,1\n3.1,1,1,1,2.4\n')
+    rows = rows_of(run('arm', 'track', FILE, path))
+    assert [row['angle_assured_1'] for row in rows] == ['True', 'True', 'False', 'True']
+    assert rows[3]['regime_1'] == 'driven_to_stop'
+
+
+def test_the_parameter_file_of_the_node_says_how_cables_are_measured(tmp_path):
+    table, parameters = tmp_path / 'counts.csv', tmp_path / 'parameters.yaml'
+    table.write_text(f'{HEADER}100,100,100,250\n100,100,100,950\n')
+    parameters.write_text(
+        'arm_estimator:\n  ros__parameters:\n    initial_bend_angles: [0.1, 0.0, 0.0, 0.0, 0.0]\n'
+        '    cables:\n'
+        + ''.join(f'      {name}: {{gain: 0.01, max_tension: 9.0}}\n' for name in ARM.cable_names)
+    )
+    first, second = rows_of(run('arm', 'track', FILE, table, '--parameters', parameters))
+    state = ArmTracker(ARM, [0.1, 0, 0, 0, 0]).update(
+        dict.fromkeys(ARM.cable_names, 1.0) | {'s_tip': 2.5}
+    )
+    assert float(first['reading_s_tip']) == 250.0
+    assert float(first['s_tip']) == 2.5
+    assert float(first['tip_x']) == pytest.approx(state.tip.x)
+    assert second['validity'] == 'implausible'
+    refused = run('arm', 'track', FILE, table, '--parameters', parameters, '--node', 'other')
+    assert_refused(refused, 'addressed to /arm_estimator')
+
+
+def test_a_recorded_tilt_counts_and_is_not_said_twice(tmp_path):
+    path = tmp_path / 'tilted.csv'
+    path.write_text(f'base_tilt [deg],{HEADER}0,1,1,1,1\n90,1,1,1,1\n')
+    rows = rows_of(run('arm', 'track', FILE, path))
+    margins = arm_margins(
+        ARM, [0.0] * 5, dict.fromkeys(ARM.cable_names, 1.0), Load.tilted(math.pi / 2)
+    )
+    assert float(rows[1]['slip_margin_1']) == pytest.approx(min(margins[0], 1.0))
+    assert_refused(
+        run('arm', 'track', FILE, path, '--base-tilt-deg', 5), 'has the tilt of the base'
+    )
+
+
+def test_the_report_has_figures_joints_and_what_it_was_made_from(tmp_path):
+    path = german(tmp_path / 'run.csv', ('bend_angle_1 [deg]', '3.5'))
+    page = tmp_path / 'report.html'
+    done = run('arm', 'report', FILE, path, '--columns', 'time=Zeit,l_mid=Fz1', '--output', page)
+    assert done.returncode == 0, done.stderr
+    text = page.read_text(encoding='utf-8')
+    assert text.count('<svg') == 2
+    for said in (
+        'SHA-256 of run.csv',
+        'SHA-256 of arm.yaml',
+        'tendon-statics arm report',
+        'rms error',
+        's_tip',
+    ):
+        assert said in text
+    assert '<script' not in text

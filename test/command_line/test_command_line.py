@@ -256,6 +256,9 @@ def test_the_version_is_the_packages(arguments):
     assert run_installed(*arguments).stdout == f'tendon-statics {version("tendon_statics")}\n'
 
 
+ARM = (installed_config('arm.yaml'), installed_config('arm_tensions.csv'))
+
+
 def test_options_count_in_every_place(tmp_path):
     design = ('--design', str(default_design_path()))
     usual = run(*CASE, *design).stdout
@@ -268,8 +271,16 @@ def test_options_count_in_every_place(tmp_path):
     figure = tmp_path / 'figure.svg'
     assert run('--output', str(figure), 'plot', *design, 'residual').returncode == 0
     assert figure.exists()
-    for help_of_figure in (('--help', 'plot', 'unit'), ('plot', '--help', 'unit')):
-        assert run(*help_of_figure).stdout.startswith('usage: tendon-statics plot unit')
+    for verb, word in (('plot', 'unit'), ('arm', 'track')):
+        for asked in (('--help', verb, word), (verb, '--help', word), (verb, word, '--help')):
+            assert run(*asked).stdout.startswith(f'usage: tendon-statics {verb} {word}')
+    tilt = ('--base-tilt-deg', '20')
+    (tilted, *others) = (
+        run(*tilt, 'arm', 'track', *ARM).stdout,
+        run('arm', *tilt, 'track', *ARM).stdout,
+        run('arm', 'track', *ARM, *tilt).stdout,
+    )
+    assert others == [tilted, tilted] != [run('arm', 'track', *ARM).stdout] * 2
 
 
 RECORDING = installed_config('recorded_session.mcap')
@@ -279,6 +290,7 @@ RECORDING = installed_config('recorded_session.mcap')
     ('arguments', 'name'),
     [
         (('plot', 'unit'), 'unit.svg'),
+        (('arm', 'plot', *ARM), 'arm.svg'),
         (('sweep', '--points', '3'), 'map.csv'),
         (('replay', RECORDING), 'replay.csv'),
         (('calibrate', RECORDING, '--motion-step-deg', '3'), 'fitted.yaml'),

@@ -28,7 +28,7 @@ def test_readings_become_tensions_and_are_solved():
     unit = UnitEstimator(dataclasses.replace(SETTINGS, cable_l=cable))
     result = unit.take(2000.0, 2.0, KNOWN, 0.0)
     assert result.exact == solve(PRELIMINARY, 1.0, 2.0)
-    assert unit.newest[:2] == (1.0, 2.0)
+    assert unit.newest.tensions == (1.0, 2.0)
     assert unit.health.solved == 1
 
 

@@ -51,8 +51,23 @@ def test_an_alias_is_refused_where_ros_does_not_read_it(tmp_path):
         read_yaml(path, aliases=False)
 
 
-def test_an_error_is_one_line_and_says_where(tmp_path):
+@pytest.mark.parametrize(
+    ('text', 'line'),
+    [
+        ('a: 1\nb: @x\nc: 2\n', 2),
+        ('a: 1\n\tb: 2\nc: 2\n', 2),
+        ('a:\n  b: 1\n c: 2\nd: 3\n', 3),
+        ('a: 1\nb: 1\n  c: 2\nd: 3\n', 3),
+        # Noticed later than it stands there.
+        ('a: 1\nb 2\nc: 3\n', 2),
+        ('a: 1\nb: [\n', 2),
+        ('a: 1\nb: [1,\n\n\n', 2),
+        ('a: 1\nb: {c: 1,\n\n', 2),
+        ('a: "x\nb: 2\nc: 3\n', 1),
+    ],
+)
+def test_an_error_is_one_line_and_names_the_line_to_mend(tmp_path, text, line):
     path = tmp_path / 'file.yaml'
-    path.write_text('a: 1\nb: [\n')
-    with pytest.raises(YamlFileError, match=r'^it is not valid YAML in line 3: .*$'):
+    path.write_text(text)
+    with pytest.raises(YamlFileError, match=rf'^it is not valid YAML in line {line}: .*$'):
         read_yaml(path)

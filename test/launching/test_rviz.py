@@ -69,12 +69,17 @@ def test_a_tilted_base_is_shown_tilted():
     assert config['Visualization Manager']['Global Options']['Fixed Frame'] == 'ball_base'
 
 
-def test_missing_rviz_is_said_in_a_line_with_the_remedy(monkeypatch):
+@pytest.mark.parametrize(
+    ('distro', 'package'),
+    [('', 'ros-jazzy-rviz2'), ('jazzy', 'ros-jazzy-rviz2'), ('kilted', 'ros-kilted-rviz2')],
+)
+def test_missing_rviz_is_said_in_a_line_with_the_remedy(distro, package, monkeypatch):
     def missing(name):
         raise PackageNotFoundError(name)
 
     monkeypatch.setattr('tendon_statics.launching.rviz.get_package_prefix', missing)
-    with pytest.raises(RvizError, match=r'apt install ros-jazzy-rviz2'):
+    monkeypatch.setenv('ROS_DISTRO', distro)
+    with pytest.raises(RvizError, match=f'apt install {package}$'):
         rviz_arguments([ALONE])
 
 

@@ -22,6 +22,7 @@ from tendon_statics_interfaces.msg import Estimate
 from tendon_statics import Regime, default_design_path, load_design, solve
 from tendon_statics.files.driver_parameters import DRIVER_PARAMETERS
 from tendon_statics.files.estimator_parameters import ESTIMATOR_PARAMETERS
+from tendon_statics.files.view_parameters import VIEW_PARAMETERS
 from tendon_statics.physics import (
     StickSlipTracker,
     admissible_angles,
@@ -44,6 +45,12 @@ MALFORMED = [
     (0.05, 0.1),
     tuple(range(1000)),
 ]
+TABLES = {
+    'estimator': ESTIMATOR_PARAMETERS,
+    'pulley_driver': DRIVER_PARAMETERS,
+    'view': VIEW_PARAMETERS,
+}
+"""Program → its parameters"""
 
 
 def test_the_published_case_on_every_topic(running):
@@ -189,7 +196,7 @@ def test_solve_answers_every_regime_and_refuses_bad_input(running):
 def test_solve_latest_gives_the_newest_valid_pair(listener):
     # Reliable, so that not even the first message is lost.
     override = 'qos_overrides./tensions.subscription.reliability:=reliable'
-    with listener.estimator('-p', override, greet=False):
+    with listener.estimator('-p', override):
         nothing = listener.solve_latest()
         assert not nothing.success
         assert 'no valid tensions' in nothing.message
@@ -343,6 +350,27 @@ def test_a_corrupt_parameter_file_is_one_line_that_names_file_and_line(text, nam
         assert program.wait() == 1
         (line,) = program.output().splitlines()
         assert line.startswith(f'estimator cannot start: {path}: {named}')
+
+
+@pytest.mark.parametrize('name', TABLES)
+def test_a_parameter_file_for_another_node_is_refused_by_every_program(name, tmp_path):
+    path = tmp_path / 'unit.yaml'
+    path.write_text('# whose\nwinch:\n  ros__parameters: {rate: 5.0}\n')
+    with Program.running(name, '--ros-args', '--params-file', str(path)) as program:
+        assert program.wait() == 1
+        line = program.output().splitlines()[-1]
+    named = f'{path}: it is addressed to /winch in line 2, so /{name} takes nothing from it'
+    assert line.startswith(f'{name} cannot start: {named}')
+
+
+@pytest.mark.parametrize('name', [name for name in TABLES if name != 'estimator'])
+def test_a_parameter_file_for_an_estimator_may_be_given_to_what_runs_beside_it(name, tmp_path):
+    path = tmp_path / 'unit.yaml'
+    path.write_text('left:\n  estimator:\n    ros__parameters: {design: {mass: 0.1}}\n')
+    arguments = ('-r', '__ns:=/left', '-p', 'port:=0', '--params-file', str(path))
+    with Program.running(name, '--ros-args', *arguments) as program:
+        wait_for('it to run', lambda: '[INFO]' in program.output())
+        assert program.end() == 0
 
 
 def test_what_ros_itself_refuses_is_said_without_its_sources():
@@ -598,7 +626,7 @@ def test_inputs_are_best_effort_outputs_reliable_and_both_can_be_overridden(list
         'qos_overrides./tensions.subscription.reliability:=reliable',
         'qos_overrides./estimator/regime.publisher.durability:=volatile',
     )
-    with listener.estimator(*(part for rule in overrides for part in ('-p', rule)), greet=False):
+    with listener.estimator(*(part for rule in overrides for part in ('-p', rule))):
         wait_for(
             'the estimator that went to be forgotten',
             lambda: len(listener.get_subscriptions_info_by_topic('/tensions')) == 1,
@@ -673,22 +701,22 @@ def test_what_came_by_mistake_is_said(tmp_path, listener):
 @pytest.mark.parametrize(
     'arguments', [('--help',), ('-h',), ('--ros-args', '-p', 'joint_name:=a', '--', '--help')]
 )
-@pytest.mark.parametrize('program', ['estimator', 'pulley_driver'])
+@pytest.mark.parametrize('program', TABLES)
 def test_help_says_what_it_takes_and_exits_with_0(program, arguments):
     with Program.running(program, *arguments) as running:
         assert running.wait() == 0
         output = running.output()
     assert output.startswith(f'usage: {program} ')
-    parameters = ESTIMATOR_PARAMETERS if program == 'estimator' else DRIVER_PARAMETERS
-    for parameter in parameters:
+    for parameter in TABLES[program]:
         assert f'  {parameter.name} (' in output
 
 
-def test_the_version_is_said_in_every_place():
+@pytest.mark.parametrize('name', TABLES)
+def test_the_version_is_said_in_every_place(name):
     for arguments in (('--version',), ('--ros-args', '--version')):
-        with Program.running('estimator', *arguments) as program:
+        with Program.running(name, *arguments) as program:
             assert program.wait() == 0
-            assert program.output().splitlines() == [f'estimator {version("tendon_statics")}']
+            assert program.output().splitlines() == [f'{name} {version("tendon_statics")}']
 
 
 @pytest.mark.parametrize('argument', ['--params-file', 'unit.yaml'])

@@ -55,7 +55,7 @@ def estimator_of(observer, recording, *more: str, kind: str = 'array', reliable=
     arguments = [part for value in values for part in ('-p', value)]
     if reliable:  # so that every message counts
         arguments += reliable_input(kind)
-    with observer.estimator(*arguments, greet=False) as program:
+    with observer.estimator(*arguments) as program:
         with driver(recording, 'rate:=200.0', kind=kind):
             wait_for('the estimator to be heard', observer.hears_all)
         wait_for_quiet(observer)
@@ -241,6 +241,39 @@ def test_of_two_drivers_at_once_no_pair_is_mixed_and_both_are_noticed(
         pairs = {(e.tension_l, e.tension_s) for e in observer.estimates}
         assert (3.0, 1.0) in pairs
         assert pairs <= {*ROWS, (3.0, 1.0)}
+
+
+def test_a_second_driver_may_come_and_go_and_come_again(observer, recording, tmp_path):
+    """While it is there a warning says so; nothing of the first is lost, nor said to be."""
+    other = tmp_path / 'other.csv'
+    other.write_text('tension_l,tension_s\n3.0,1.0\n')
+
+    def count_of_other() -> int:
+        return sum(estimate.tension_l == 3.0 for estimate in observer.estimates)
+
+    with estimator_of(observer, recording), driver(recording, 'rate:=100.0'):
+        wait_for('the first alone', lambda: len(observer.estimates) > 50)
+        before = observer.count('messages lost on the way') if EXECUTOR != 'events' else 0
+        # One that is killed says no goodbye, and is missed only after some 20 s of silence.
+        for number in (signal.SIGINT, signal.SIGKILL, signal.SIGTERM):
+            since, known = len(observer.diagnostics), count_of_other()
+            with driver(other, 'rate:=100.0') as second:
+                observer.wait_for_status(
+                    DiagnosticStatus.WARN, '2 publishers on /tensions', since=since
+                )
+                wait_for('what it sends', lambda n=known: count_of_other() > n + 50)
+                second.end(number)
+            observer.wait_for_status(DiagnosticStatus.OK, Regime.DRIVEN_TO_STOP.value)
+        # A loss is said in the second report after it.
+        for _ in range(3):
+            status = observer.report()
+            assert status.level == DiagnosticStatus.OK, status.message
+        if EXECUTOR != 'events':
+            assert observer.count('messages lost on the way') == before
+        taken = [(e.tension_l, e.tension_s) for e in observer.estimates]
+        places = [ROWS.index(pair) for pair in taken if pair != (3.0, 1.0)]
+        for earlier, later in itertools.pairwise(places):
+            assert later == (earlier + 1) % len(ROWS)
 
 
 def test_a_bad_parameter_in_the_middle_of_a_stream_changes_nothing(observer, recording):

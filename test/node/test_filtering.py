@@ -240,11 +240,11 @@ def test_what_is_no_covariance_of_the_design_is_refused_while_the_node_runs():
             )
 
         assert change(['mass', 'friction_coefficient'], [4e-6, 0.0, 0.0, 9e-4]).successful
-        assert node.unit.settings.design_uncertainty.stddev('friction_coefficient') == 0.03
+        assert node.core.settings.design_uncertainty.stddev('friction_coefficient') == 0.03
         refused = change(['mass'], [4e-6, 0.0])
         assert not refused.successful
         assert 'design_uncertainty.covariance has 2 numbers; 1 parameters need 1' in refused.reason
         assert not change(['weight'], [1.0]).successful
-        assert node.unit.settings.design_uncertainty.stddev('friction_coefficient') == 0.03
+        assert node.core.settings.design_uncertainty.stddev('friction_coefficient') == 0.03
         assert change([], []).successful
-        assert node.unit.settings.design_uncertainty is None
+        assert node.core.settings.design_uncertainty is None

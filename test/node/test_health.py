@@ -186,10 +186,6 @@ def test_an_angle_that_is_not_assured_is_a_warning(listener):
 def test_stale_is_said_once_and_nothing_else_until_tensions_come_again(listener):
     # Twenty times the timeout is waited for, by the reports that come each second.
     with listener.estimator('-p', 'input_timeout:=0.1'):
-        # Also in the greeting it may have been stale. A report later its end has come.
-        listener.wait_for_status(STALE, 'no valid tensions for ')
-        listener.report()
-        listener.stale_regimes.clear()
         assert listener.answer(*SLIPPING) == 'equilibrium'
         wait_for('all of the answer', listener.has_all)
         wait_for('that it is stale', lambda: listener.stale_regimes)
@@ -208,7 +204,7 @@ def test_stale_is_said_once_and_nothing_else_until_tensions_come_again(listener)
 
 
 def test_before_the_first_tensions_only_diagnostics_say_so(listener):
-    with listener.estimator('-p', 'input_timeout:=0.1', greet=False):
+    with listener.estimator('-p', 'input_timeout:=0.1'):
         status = listener.wait_for_status(STALE, 'no valid tensions came yet')
         assert values(status)['messages received'] == '0'
         left = values(status)['design values left at the preliminary design']

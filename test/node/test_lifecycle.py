@@ -32,8 +32,7 @@ def test_it_starts_itself(listener):
 
 @pytest.mark.parametrize('state', ['unconfigured', 'inactive', 'finalized'])
 def test_unless_active_it_publishes_nothing_and_services_refuse(state, listener):
-    with listener.estimator(*NOT_STARTED, greet=False) as program:
-        listener.connect_to_services(program)
+    with listener.estimator(*NOT_STARTED) as program:
         for transition in WAYS[state]:
             assert listener.change_state(transition)
         assert listener.estimator_state() == state
@@ -52,7 +51,6 @@ def test_unless_active_it_publishes_nothing_and_services_refuse(state, listener)
         if state != 'finalized':
             for transition in ('configure', 'activate')[len(WAYS[state]) :]:
                 assert listener.change_state(transition)
-            listener.connect(program, greet=False)
             # What was sent before is let be, also if it was still waiting.
             wait_for(
                 'an answer',
@@ -99,8 +97,7 @@ def test_deactivated_it_stops_and_says_so_and_goes_on_when_activated(listener):
 
 
 def test_a_bad_design_keeps_it_from_configuring_until_it_is_mended(listener):
-    with listener.estimator(*NOT_STARTED, '-p', 'design.mass:=-1.0', greet=False) as program:
-        listener.connect_to_services(program)
+    with listener.estimator(*NOT_STARTED, '-p', 'design.mass:=-1.0') as program:
         assert not listener.change_state('configure')
         assert listener.estimator_state() == 'unconfigured'
         reason = 'Not configured: design.mass is -1.0, allowed is 0 to 100 kg'
@@ -111,13 +108,11 @@ def test_a_bad_design_keeps_it_from_configuring_until_it_is_mended(listener):
         refused = listener.set_estimator_parameters(design__contact_end_angle=0.5)
         assert 'the end must exceed the start' in refused.reason
         assert listener.change_state('activate')
-        listener.connect(program)
         assert listener.answer(*STOP) == 'driven_to_stop'
 
 
 def test_unconfigured_parameters_may_be_set_one_by_one(listener):
-    with listener.estimator(*NOT_STARTED, greet=False) as program:
-        listener.connect_to_services(program)
+    with listener.estimator(*NOT_STARTED) as program:
         assert listener.set_estimator_parameters(design__contact_start_angle=1.6).successful
         assert not listener.change_state('configure')
         assert 'the end must exceed the start' in program.output()
@@ -128,8 +123,7 @@ def test_unconfigured_parameters_may_be_set_one_by_one(listener):
 @pytest.mark.parametrize('state', WAYS)
 def test_parameters_can_be_set_in_every_state(state, listener):
     """One cannot be deleted, which would leave the node without it."""
-    with listener.estimator(*NOT_STARTED, greet=False) as program:
-        listener.connect_to_services(program)
+    with listener.estimator(*NOT_STARTED):
         for transition in WAYS[state]:
             assert listener.change_state(transition)
         assert listener.set_estimator_parameters(design__mass=0.02).successful
@@ -174,8 +168,7 @@ def test_a_tracked_unit_may_move_while_nobody_looks(listener):
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM], ids=lambda n: n.name)
 @pytest.mark.parametrize('state', WAYS)
 def test_a_signal_under_load_ends_it_in_every_state(number, state, listener):
-    with listener.estimator(*NOT_STARTED, greet=False) as program:
-        listener.connect_to_services(program)
+    with listener.estimator(*NOT_STARTED) as program:
         for transition in WAYS[state]:
             assert listener.change_state(transition)
         ended = threading.Event()

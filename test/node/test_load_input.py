@@ -178,10 +178,9 @@ def test_an_orientation_that_stops_coming_is_a_warning_and_its_load_not_assured(
     arguments += ('estimation:=tracking',)
     tilted = imu(orientation=about_y(TILT))
     given = (part for value in arguments for part in ('-p', value))
-    with listener.estimator(*given, greet=False) as program:
-        listener.connect(program, greet=False)
+    with listener.estimator(*given):
         # A tracked unit is where it began until the load is known.
-        wait_for('an answer', lambda: listener.publish(*STOP) or listener.estimates)
+        listener.answer(*STOP)
         assert not listener.newest_estimate().angle_assured
         wait_for('the tilt', lambda: load_taken(listener, sensors['imu'], tilted))
         estimate = listener.newest_estimate()

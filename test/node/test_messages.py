@@ -71,7 +71,7 @@ def filtered_estimates():
     method, found = Filtering(settings), []
     for place, pair in enumerate([HELD] * 20 + [STOP] * 20 + [SLACK, HELD]):
         known = KnownLoad(UPRIGHT_LOAD, is_assured=place != 10)
-        found.append(method.update(Sample(*pair, known, 0.01 * place, 0.01 * place)))
+        found.append(method.update(Sample(pair, known, 0.01 * place, 0.01 * place)))
         found += method.take_committed()
         if place == 15:
             method.measure(0.1)

@@ -3,12 +3,14 @@
 import signal
 import threading
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
+from ament_index_python.packages import get_package_prefix
 from builtin_interfaces.msg import Time
 from designs import PRELIMINARY
 from listener import Listener, reliable_input
-from ros_programs import spinning, wait_for
+from ros_programs import EXECUTOR, Program, spinning, wait_for
 
 from tendon_statics import solve
 
@@ -76,7 +78,7 @@ def test_a_stamp_before_all_time_does_no_harm(stamp, joint_state_listener):
         assert f'{stamp.sec + 1e-9 * stamp.nanosec:.9f} s' in program.output()
         assert listener.answer(*STOP) == 'driven_to_stop'
     listener.forget()
-    with listener.estimator(*arguments, greet=False):
+    with listener.estimator(*arguments):
         # As the first of all.
         wait_for('an answer', lambda: listener.publish(*STOP, stamp=stamp) or listener.regimes)
         assert listener.answer(*STOP) == 'driven_to_stop'
@@ -112,7 +114,7 @@ def test_two_clients_that_set_parameters_at_once_leave_a_design_that_one_asked_f
     asked = ((0.2, 0.02), (0.4, 0.04))
     pairs = {design: solve_stop(*design) for design in asked}
     with listener.estimator(*reliable_input()) as program, spinning(Listener) as other:
-        other.connect_to_services(program)
+        other.connect(program)
         ended = threading.Event()
 
         def stream() -> None:
@@ -172,3 +174,18 @@ def test_a_manager_may_cycle_it_a_thousand_times(listener):
         assert listener.answer(*STOP) == 'driven_to_stop'
         listener.newest_estimate()
         assert 'Traceback' not in program.output()
+
+
+def test_a_disk_that_is_full_costs_the_log_and_nothing_else(listener):
+    """By a limit on the size of files, with neither room for ROS's log nor for the console's."""
+    estimator = Path(get_package_prefix('tendon_statics'), 'lib', 'tendon_statics', 'estimator')
+    full = ('bash', '-c', 'ulimit -f 0; exec "$@"', 'bash')
+    given = ('--ros-args', '-p', f'executor:={EXECUTOR or "single"}')
+    with Program.running_command((*full, estimator, *given)) as program:
+        listener.connect(program)
+        for mass in (0.03, -1.0, 0.02):  # of which each is said, or that it is refused
+            result = listener.set_estimator_parameters(design__mass=mass)
+            assert result.successful == (mass > 0.0)
+            assert listener.answer(*STOP) == 'driven_to_stop'
+        assert program.output() == ''
+        assert program.end() == 0

@@ -16,13 +16,17 @@ from tendon_statics.node.inputs.sources import (
     JointStateSource,
     Reading,
     WrenchPairSource,
+    nanoseconds,
 )
-from tendon_statics.node.inputs.stamp_order import StampOrder, nanoseconds
 from tendon_statics.tensions.cable_scale import CableScale, scaled
 from tendon_statics.tensions.pairing import MOST_WAITING
 from tendon_statics.tensions.reason import Reason
+from tendon_statics.tensions.stamp_order import StampOrder
 
 ARRIVAL = 10**18
+"""ns"""
+
+MILLISECOND = 10**6
 """ns"""
 
 
@@ -41,7 +45,7 @@ class Taken:
 
     @property
     def values(self):
-        return [reading[:2] for reading in self.readings]
+        return [reading.values for reading in self.readings]
 
     @property
     def reasons(self):
@@ -79,7 +83,7 @@ def test_an_array_is_taken_as_it_is_and_has_no_stamp(taken):
     source = ArraySource(taken.deliver, taken.drop)
     for data in ([1.0, 2.0], [1.0], [], [1.0, 2.0, 3.0]):
         send(source, 'tensions', Float64MultiArray(data=data))
-    assert taken.readings == [Reading(1.0, 2.0, None)]
+    assert taken.readings == [Reading((1.0, 2.0), None)]
     assert taken.reasons == [Reason.WRONG_LENGTH] * 3
     assert '1 values came' in taken.drops[0][1]
 
@@ -168,7 +172,7 @@ def test_a_topic_has_one_clock(taken):
     """Of a driver that has stamped its messages, one without a stamp is out of order."""
     source = JointStateSource(taken.deliver, taken.drop, ('l', 's'), lambda: 0.0005)
     send(source, 'tensions', *(joint_state(stamp, l=stamp, s=1) for stamp in (0, 5, 0, 6)))
-    assert [reading.value_l for reading in taken.readings] == [0.0, 5.0, 6.0]
+    assert [reading.values[0] for reading in taken.readings] == [0.0, 5.0, 6.0]
     assert taken.reasons == [Reason.OUT_OF_ORDER]
 
 
@@ -176,32 +180,32 @@ def test_a_topic_has_one_clock(taken):
 def test_a_driver_with_an_earlier_clock_is_taken_once_the_input_is_stale(first):
     """The same after one stamp far in the future."""
     order = StampOrder()
-    assert order.objection(at(first)) is None
-    assert all(order.objection(at(stamp)) for stamp in range(10, 20))
+    assert order.objection(MILLISECOND * first) is None
+    assert all(order.objection(MILLISECOND * stamp) for stamp in range(10, 20))
     order.is_loose = True
     order.forget()
-    assert order.objection(at(first)) is None
+    assert order.objection(MILLISECOND * first) is None
     order.is_loose = True
-    assert order.objection(at(20))
-    assert order.objection(at(21))
-    assert order.objection(at(22)) is None
+    assert order.objection(MILLISECOND * 20)
+    assert order.objection(MILLISECOND * 21)
+    assert order.objection(MILLISECOND * 22) is None
     order.is_loose = False
-    assert order.objection(at(22))
-    assert order.objection(at(21))
-    assert order.objection(at(23)) is None
+    assert order.objection(MILLISECOND * 22)
+    assert order.objection(MILLISECOND * 21)
+    assert order.objection(MILLISECOND * 23) is None
 
 
 def test_stamps_that_do_not_rise_are_never_taken():
     """Going backwards, standing still, or to and fro; until the order is forgotten."""
     for early in (range(999, 0, -1), [5] * 999, [5, 6] * 500):
         order = StampOrder()
-        assert order.objection(at(1000)) is None
+        assert order.objection(MILLISECOND * 1000) is None
         order.is_loose = True
         for stamp in early:
-            assert order.objection(at(stamp))
-        assert order.objection(at(1001)) is None
+            assert order.objection(MILLISECOND * stamp)
+        assert order.objection(MILLISECOND * 1001) is None
         order.forget()
-        assert order.objection(at(1)) is None
+        assert order.objection(MILLISECOND * 1) is None
 
 
 def test_a_bad_stamp_of_bad_content_does_not_shut_a_stale_input(taken):
@@ -213,7 +217,7 @@ def test_a_bad_stamp_of_bad_content_does_not_shut_a_stale_input(taken):
     assert len(taken.readings) > 5
     source.tighten()
     send(source, 'tensions', *(joint_state(stamp, l=stamp, s=1) for stamp in range(5)))
-    assert taken.readings[-1].value_l == 19.0
+    assert taken.readings[-1].values[0] == 19.0
 
 
 @pytest.mark.parametrize('phase', [0.0, 0.4, 0.8, 1.0, 1.2, 1.6])
@@ -309,8 +313,8 @@ def test_every_message_of_a_load_cell_is_paired_dropped_or_waiting(sent, skew):
     source.forget()
     assert len(sent) == 2 * len(taken.readings) + len(taken.drops)
     for reading in taken.readings:
-        assert abs(reading.value_l - reading.value_s) <= skew
-        assert nanoseconds(reading.stamp) == 1e6 * max(reading[:2])
+        assert abs(reading.values[0] - reading.values[1]) <= skew
+        assert nanoseconds(reading.stamp) == 1e6 * max(reading.values)
     times = [nanoseconds(reading.stamp) for reading in taken.readings]
     assert times == sorted(set(times))
 

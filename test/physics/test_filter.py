@@ -129,18 +129,18 @@ def test_a_measured_angle_puts_the_unit_there():
 
 def test_doubt_lasts_until_a_stop_or_a_measurement():
     found = StickSlipFilter(PRELIMINARY, tension_stddev=NOISE)
-    assert fed(found, [(1.0, 1.5)] * 10)[-1].angle_assured
+    assert fed(found, [(1.0, 1.5)] * 10)[-1].assured
     slack = found.update(0.0, 1.5, 1.0)
     assert slack.regime is Regime.SLACK
     assert slack.bend_angle is slack.pressure is slack.interval() is None
     doubted = fed(found, [(1.0, 1.5)] * 10, start=2.0)[-1]
-    assert not doubted.angle_assured
+    assert not doubted.assured
     assert doubted.bend_angle_stddev is None
     found.measure(0.1, 0.01)
-    assert fed(found, [(1.0, 1.5)] * 10, start=3.0)[-1].angle_assured
+    assert fed(found, [(1.0, 1.5)] * 10, start=3.0)[-1].assured
     found.doubt()
-    assert not fed(found, [(1.0, 1.5)] * 10, start=4.0)[-1].angle_assured
-    assert fed(found, [(1.0, 3.0)] * 200, start=5.0)[-1].angle_assured
+    assert not fed(found, [(1.0, 1.5)] * 10, start=4.0)[-1].assured
+    assert fed(found, [(1.0, 3.0)] * 200, start=5.0)[-1].assured
 
 
 def test_a_bias_that_is_stated_widens_what_is_known():

@@ -1,6 +1,7 @@
 """Tables as spreadsheets, LabVIEW, MATLAB, PlotJuggler and `rostopic echo` write them."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -125,6 +126,58 @@ def test_what_is_not_sure_is_refused_with_the_option_that_reads_it(file, text, o
         [(1.5, 2.5)],
         [(1.0, 1.5)],
     )
+
+
+@pytest.mark.parametrize(
+    ('text', 'named'),
+    [
+        (
+            'Rig export\nOperator: A B\n;;\n\ntime;tension_l;tension_s\n0,0;1,0;1,5\n',
+            'line 1, the first, has no titles of tensions; line 5 has them: --skip-rows 4',
+        ),
+        (
+            'Rig export\n;;\n\nTime (s);Force left (N);Force right\n0,0;1,0;1,5\n',
+            'line 4 looks like the titles, Time (s), Force left (N), Force right: --skip-rows 3 '
+            '--columns tension_l=TITLE,tension_s=TITLE',
+        ),
+        ('Time (s);Force left (N);Force right (N)\n0,0;1,0;1,5\n', 'Time (s), Force left (N), F'),
+    ],
+)
+def test_titles_are_found_below_a_preamble_and_not_split_at_their_blanks(file, text, named):
+    path = file(text)
+    with pytest.raises(RecordingError, match=re.escape(named)):
+        load_recording(path)
+    columns = {'tension_l': 'Force left (N)', 'tension_s': 'Force right'} if 'F' in named else {}
+    skip = int(named.partition('--skip-rows ')[2].split()[0]) if '--skip-rows' in named else 0
+    table = TableOptions(skip_rows=skip, columns=columns)
+    assert load_recording(path, table=table).tensions() == [(1.0, 1.5)]
+
+
+def test_of_rows_that_are_skipped_with_the_titles_it_is_said_where_those_stand(file):
+    path = file('a\ntension_l,tension_s\n1,1.5\n')
+    with pytest.raises(RecordingError, match='line 2 has them: --skip-rows 1'):
+        load_recording(path, table=TableOptions(skip_rows=2))
+
+
+def test_rows_of_separators_alone_at_the_ends_are_none(file):
+    recording = load_recording(file(';\ntension_l;tension_s\n1,0;1,5\n;\n1,0;1,6\n;\n;\n'))
+    assert [at_s for _, at_s in recording.whole().tensions()][::2] == [1.5, 1.6]
+    assert math.isnan(recording.tension_s[1])
+
+
+def test_of_a_row_in_latin_1_the_cause_is_named(file):
+    path = file('tension_l,tension_s,note\n1,1.5,20 C\n1,1.6,25 °C\n', encoding='latin-1')
+    recording = load_recording(path)
+    assert 'line 3' in recording.damage_summary
+    assert 'byte 0xb0; if it is Latin-1, --encoding latin-1 reads it' in recording.damage_summary
+    latin = load_recording(path, table=TableOptions(encoding='latin-1'))
+    assert latin.whole().tensions() == PAIRS
+
+
+def test_of_a_number_with_a_comma_among_points_the_option_is_named(file):
+    rows = ''.join(f'1.0;1.{i}\n' for i in range(10, 120))
+    recording = load_recording(file(f'tension_l;tension_s\n{rows}1,0;1,5\n'))
+    assert "'1,0' is no number (--decimal , if commas" in recording.damage_summary
 
 
 @pytest.mark.parametrize('word', ['NaN', 'NA', 'N/A', '#N/A', 'null', 'None', '-1.#IND'])

@@ -1,15 +1,24 @@
 """Columns of times: the titles and units that exporters give them."""
 
+import dataclasses
 import datetime
 
 import numpy as np
 import pyarrow as pa
 import pytest
+import scipy.io
+from designs import PRELIMINARY
 from programs import assert_refused, run
 from pyarrow import parquet
 
+from tendon_statics import CalibrationError, Recording, RecordingError, calibrate
+from tendon_statics.recordings.hints import hints
+from tendon_statics.recordings.motion import mark_motion
 from tendon_statics.recordings.reading.load import load_recording
 from tendon_statics.recordings.reading.table_options import TableOptions
+from tendon_statics.recordings.reading.time_titles import parse_time_title
+from tendon_statics.recordings.replay.estimates import replay
+from tendon_statics.recordings.replay.table_output import write_table
 
 SECONDS = 1_795_737_600
 """Midnight of 27 November 2026, UTC, since 1970"""
@@ -157,3 +166,180 @@ def test_a_whole_session_is_not_fitted_as_slips_whatever_its_time_is_called(tmp_
     rows = ''.join(f'{i},{"0," if rest else ""}1,{1.5 + 0.1 * i},0.1\n' for i in range(8))
     path.write_text(f'{title},{rest}tension_l,tension_s,bend_angle\n{rows}')
     assert_refused(run('calibrate', path), '--motion-step-deg')
+
+
+@pytest.mark.parametrize(
+    ('title', 'factor'),
+    [
+        *(('elapsed_time', 1.0), ('datetime', 1.0), ('header.stamp.sec', 1.0), ('sec', 1.0)),
+        *(('_time', 1.0), ('rosbagTimestamp', 1.0), ('Zeit', 1.0), ('Elapsed Time (s)', 1.0)),
+        *(('Time', 1.0), ('time_s', 1.0), ('Time (ms)', 1e3), ('time_ms', 1e3), ('TimeUS', 1e6)),
+        *(('Zeit [ms]', 1e3), ('Zeit in s', 1.0), ('t/s', 1.0), ('Uhrzeit', 1.0), ('millis', 1e3)),
+        *(('Time Stamp', 1.0), ('timestamp (µs)', 1e6), ('Time [min]', 1 / 60), ('log_time', 1.0)),
+        *(('header_stamp_sec', 1.0), ('Relative Time [ms]', 1e3), ('time [seconds]', 1.0)),
+        *(('tout', 1.0), ('Time (UTC)', 1.0), ('.header.stamp.secs', 1.0)),
+    ],
+)
+def test_what_exporters_call_the_time_is_read_so_that_gaps_are_seen(tmp_path, title, factor):
+    path = written(tmp_path, title, 0.0, 0.1 * factor, 3600.0 * factor)
+    recording = load_recording(path).whole()
+    assert recording.time == pytest.approx([0.0, 0.1, 3600.0], rel=1e-12)
+    assert followed(recording).tolist() == [True, True, False]
+
+
+def followed(recording):
+    return replay(PRELIMINARY, recording, 'tracking').angle_assured
+
+
+@pytest.mark.parametrize(
+    'title',
+    ['t_min', 'settling_time', 's', 'nanosec', 'header.stamp.nanosec', 'time_index', 't0', 'lat'],
+)
+def test_what_only_looks_like_a_title_of_times_is_none(title):
+    assert parse_time_title(title) is None
+
+
+@pytest.mark.parametrize(
+    ('title', 'values'),
+    [
+        ('tick', [0.0, 0.1, 3600.0, 3600.1]),
+        ('tick', [5.0, 5.0, 6.0, 6.0]),
+        ('Messpunkt', [0, 100, 200, 300]),
+    ],
+)
+def test_a_column_that_behaves_like_a_clock_casts_doubt_until_somebody_says_what_it_is(
+    tmp_path, title, values
+):
+    path = written(tmp_path, title, *values)
+    recording = load_recording(path)
+    assert recording.time is None
+    assert followed(recording).tolist() == [True, False, False, False]
+    (hint,) = hints(recording, PRELIMINARY)
+    assert f'--columns time="{title}"' in hint
+    with pytest.raises(RecordingError, match=f'{title}.*--columns time='):
+        replay(PRELIMINARY, recording, 'filtering')
+    with pytest.raises(RecordingError, match=f'{title}.*--columns time='):
+        mark_motion(dataclasses.replace(recording, bend_angle=[0.0] * 4), 0.1)
+    named = load_recording(path, table=TableOptions(columns={'time': title}))
+    assert named.time.tolist() == values
+    assert followed(load_recording(path, table=TableOptions(rate=100.0))).all()
+
+
+@pytest.mark.parametrize(
+    ('title', 'values'),
+    [
+        ('tick', [0.0, 0.1, 0.05]),
+        ('tick', [1.0, 1.0, 1.0]),
+        ('', [0, 1, 2]),
+        *((title, [0.0, 0.1, 3600.0]) for title in ('header.seq', 'motor_position', 'x [mm]')),
+        ('tick', ['a', 'b', 'c']),
+    ],
+)
+def test_what_does_not_behave_like_a_clock_casts_none(tmp_path, title, values):
+    recording = load_recording(written(tmp_path, title, *values))
+    assert recording.unknown_times == ''
+    assert followed(recording).all()
+
+
+def test_the_columns_of_a_replay_are_no_clocks(tmp_path):
+    path = tmp_path / 'again.csv'
+    rows = Recording([1.0, 1.1], [1.5, 1.7], bend_angle=[0.1, 0.2], pressure=[1.0, 2.0])
+    write_table(path, replay(PRELIMINARY, rows, 'tracking').columns())
+    assert load_recording(path).unknown_times == ''
+
+
+@pytest.mark.parametrize('kind', ['parquet', 'mat'])
+def test_clocks_are_seen_in_other_tables_too(tmp_path, kind):
+    columns = {
+        'tick': np.array([0.0, 0.1, 3600.0]),
+        'tension_l': np.ones(3),
+        'tension_s': np.full(3, 1.5),
+    }
+    path = tmp_path / f'run.{kind}'
+    if kind == 'parquet':
+        parquet.write_table(pa.table(columns), path)
+    else:
+        scipy.io.savemat(path, columns)
+    recording = load_recording(path)
+    assert '--columns time="tick"' in recording.unknown_times
+    assert followed(recording).tolist() == [True, False, False]
+
+
+def test_a_session_with_a_clock_that_is_not_known_is_not_fitted_as_slips(tmp_path):
+    path = tmp_path / 'run.csv'
+    rows = ''.join(f'{0.1 * i},1,{1.5 + 0.1 * (i * 5 % 8)},{0.1 * (i % 3)}\n' for i in range(8))
+    path.write_text(f'tick,tension_l,tension_s,bend_angle\n{rows}')
+    assert_refused(run('calibrate', path), '--columns time="tick"')
+    with pytest.raises(CalibrationError, match='a column that rises as times do'):
+        calibrate(PRELIMINARY, load_recording(path))
+
+
+@pytest.mark.parametrize('cell', ['', 'nan', 'NA', 'inf'])
+def test_a_row_without_a_time_casts_doubt_and_so_does_the_one_after_it(tmp_path, cell):
+    path = tmp_path / 'run.csv'
+    rows = ('0,1,1.5', f'{cell},1,1.5', '0.1,1,1.5', '0.2,1,3', f'{cell},1,1.5', '0.3,1,1.5')
+    path.write_text('time,tension_l,tension_s\n' + '\n'.join(rows) + '\n')
+    # A stop tells where it is until the next row without a time.
+    assert followed(load_recording(path)).tolist() == [True, False, False, True, False, False]
+
+
+@pytest.mark.parametrize('cells', [['5', '5', '5'], ['', '', '']])
+def test_times_that_do_not_advance_are_none(tmp_path, cells):
+    recording = load_recording(written(tmp_path, 'time', *cells))
+    assert recording.time is None
+    assert '--columns time=TITLE' in hints(recording, PRELIMINARY)[0]
+    assert followed(recording).tolist() == [True, False, False]
+
+
+def test_dates_and_times_as_a_german_spreadsheet_has_them_are_read(tmp_path):
+    path = tmp_path / 'run.csv'
+    for head, rows in (
+        ('Datum;Uhrzeit', ('27.11.2026;23:59:59,9', '28.11.2026;0:00:00,1')),
+        ('Zeit', ('27.11.2026 23:59:59,9', '28.11.2026 00:00:00,1')),
+    ):
+        path.write_text(f'{head};tension_l;tension_s\n' + ''.join(f'{r};1,0;1,5\n' for r in rows))
+        recording = load_recording(path).whole()
+        assert recording.time == pytest.approx([0.0, 0.2], abs=1e-12)
+        assert recording.time_origin == (SECONDS + 86_400) * 10**9 - 10**8
+
+
+def test_times_of_day_are_read_and_dates_of_which_the_day_is_not_sure_are_refused(tmp_path):
+    recording = load_recording(written(tmp_path, 'Time', '9:59:59.5', '10:00:00'))
+    assert recording.time.tolist() == [0.0, 0.5]
+    with pytest.raises(RecordingError, match=r'is no time: .*--columns time='):
+        load_recording(written(tmp_path, 'Time', '11/12/2026 10:00:00'))
+
+
+def test_an_index_of_moments_without_a_title_is_the_time(tmp_path):
+    path = written(tmp_path, '', '2026-11-27 00:00:00', '2026-11-27 00:00:00.5')
+    assert load_recording(path).time.tolist() == [0.0, 0.5]
+
+
+def test_a_unit_of_time_that_is_none_is_refused_with_the_options(tmp_path):
+    path = written(tmp_path, 'Time (ticks)', 0, 1)
+    with pytest.raises(RecordingError, match=r'--columns time="Time \(ticks\)".*--units time='):
+        load_recording(path)
+    said = TableOptions(columns={'time': 'Time (ticks)'}, units={'time': 'ms'})
+    assert load_recording(path, table=said).time.tolist() == [0.0, 0.001]
+    with pytest.raises(RecordingError, match='stands in its title, and --units says s'):
+        load_recording(
+            written(tmp_path, 'Time (ms)', 0, 1), table=TableOptions(units={'time': 's'})
+        )
+
+
+def test_whole_seconds_and_their_rest_are_a_stamp_whatever_stands_beside_them(tmp_path):
+    path = tmp_path / 'run.csv'
+    path.write_text(
+        'rosbagTimestamp,header,seq,stamp,secs,nsecs,tension_l,tension_s\n'
+        f'9,,1,,{SECONDS},0,1,1.5\n9,,2,,{SECONDS},500000000,1,1.5\n'
+    )
+    assert load_recording(path).time.tolist() == [0.0, 0.5]
+
+
+def test_of_a_tension_that_is_named_the_unit_in_round_brackets_counts(tmp_path):
+    path = tmp_path / 'run.csv'
+    path.write_text('left (mN),right (mN)\n1000,1500\n')
+    for titles in (('left (mN)', 'right (mN)'), ('left', 'right')):
+        columns = dict(zip(('tension_l', 'tension_s'), titles, strict=True))
+        recording = load_recording(path, table=TableOptions(columns=columns))
+        assert recording.tensions() == [(1.0, 1.5)]

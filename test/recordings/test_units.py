@@ -1,19 +1,19 @@
-"""`parse_column`: titles that are meant for a quantity are read or refused, never overlooked."""
+"""`Quantities.parse`: titles meant for a quantity are read or refused, never overlooked."""
 
 import numpy as np
 import pytest
 from designs import PRELIMINARY
 
-from tendon_statics import Recording, RecordingError
-from tendon_statics.recordings.reading.units import UNITS, parse_column
+from tendon_statics import Arm, ArmUnit, Cable, Recording, RecordingError
+from tendon_statics.recordings.reading.units import OF_UNIT, of_arm
 from tendon_statics.recordings.replay.estimates import replay
 
 
-@pytest.mark.parametrize('quantity', UNITS)
+@pytest.mark.parametrize('quantity', [*filter(OF_UNIT.has_units, OF_UNIT.kinds)])
 def test_a_quantity_is_read_with_each_of_its_units(quantity):
-    assert parse_column(f' {quantity} ') == (quantity, 1.0)
-    for unit, factor in UNITS[quantity].items():
-        assert parse_column(f'{quantity} [{unit}]') == (quantity, factor)
+    assert OF_UNIT.parse(f' {quantity} ') == (quantity, 1.0)
+    for unit, factor in OF_UNIT.kinds[quantity].units.items():
+        assert OF_UNIT.parse(f'{quantity} [{unit}]') == (quantity, factor)
 
 
 @pytest.mark.parametrize(
@@ -26,7 +26,6 @@ def test_a_quantity_is_read_with_each_of_its_units(quantity):
         ('bend_angle °', 'bend_angle or'),
         ('pressure, psi', 'pressure or'),
         ('pressure in MPa', r'pressure \[MPa\]'),
-        ('time/ms', r'time \[ms\]'),
         ('Tension_L', 'tension_l or'),
         ('TensionS [mN]', r'tension_s \[mN\]'),
         ('bend angle', 'bend_angle or'),
@@ -36,7 +35,7 @@ def test_a_quantity_is_read_with_each_of_its_units(quantity):
 )
 def test_what_would_be_overlooked_is_refused_with_the_way_to_write_it(title, hint):
     with pytest.raises(RecordingError, match=f'overlooked: write .*{hint}'):
-        parse_column(title)
+        OF_UNIT.parse(title)
 
 
 @pytest.mark.parametrize(
@@ -44,11 +43,30 @@ def test_what_would_be_overlooked_is_refused_with_the_way_to_write_it(title, hin
     ['timestamp', 'timestamp_note', 'time_of_day', 'tension_left', 'pressure_sensor', 'state'],
 )
 def test_what_is_something_else_is_left_alone(title):
-    assert parse_column(title) == (title, 1.0)
+    assert OF_UNIT.parse(title) == (title, 1.0)
 
 
 def test_the_columns_of_a_replay_are_read_as_what_they_are():
     ones = np.ones(2)
-    recording = Recording(ones, ones, ones, ones, ['held', 'held'], ones)
+    recording = Recording(ones, ones, ones, ones, ['held', 'held'], time=ones)
     for title in replay(PRELIMINARY, recording).columns():
-        assert parse_column(title) == (title, 1.0)
+        assert OF_UNIT.parse(title) == (title, 1.0)
+
+
+def arm_of(*cables):
+    """An arm of two units with cables of these names, to l and to s in turn."""
+    pulls = [Cable(name, 'ls'[number % 2], 2) for number, name in enumerate(cables)]
+    return Arm([ArmUnit(PRELIMINARY, 0.02)] * 2, pulls)
+
+
+def test_cables_of_an_arm_are_read_by_their_names_and_not_overlooked():
+    arm = of_arm(arm_of('l_mid', 's_mid', 'l1', 's1'))
+    assert arm.parse('l_mid [mN]') == ('l_mid', 1e-3)
+    assert arm.parse('bend_angle_2 [mrad]') == ('bend_angle_2', 1e-3)
+    assert arm.parse('l1 raw') == ('l1 raw', 1.0)
+    assert arm.parse('pressure [bar]') == ('pressure', 1.0)
+    for title, hint in (('L Mid (mN)', r'l_mid \[mN\]'), ('l1 in N', 'l1 or'), ('L1', 'l1 or')):
+        with pytest.raises(RecordingError, match=f'overlooked: write .*{hint}'):
+            arm.parse(title)
+    with pytest.raises(RecordingError, match='a cable of the arm is called time'):
+        of_arm(arm_of('time', 's'))

@@ -84,11 +84,11 @@ class Listener(EstimatorClient):
         self._reported.extend(time for _ in message.status)
 
     @contextmanager
-    def estimator(self, *ros_arguments: str, greet: bool = True) -> Iterator[Program]:
-        """Run the installed estimator for the kind of tensions, connected in both directions."""
+    def estimator(self, *ros_arguments: str) -> Iterator[Program]:
+        """Run the installed estimator for the kind of tensions, connected with this node."""
         if self.tension_source not in (None, 'array'):
             ros_arguments = ('-p', f'tension_source:={self.tension_source}', *ros_arguments)
-        with super().estimator(*ros_arguments, greet=greet) as program:
+        with super().estimator(*ros_arguments) as program:
             yield program
 
     def count_kept(self) -> list[int]:
@@ -111,16 +111,6 @@ class Listener(EstimatorClient):
             and len(self.joint_pressures) == pressures
             and len(self.admissible_angles) == sum(regime != 'slack' for regime in answered)
         )
-
-    def connect_to_services(self, program: Program) -> None:
-        """Wait until the estimator's services are there; it may be in any state."""
-
-        def found() -> bool:
-            assert program.process.poll() is None, program.output()
-            return all(client.service_is_ready() for client in self._clients_by_name.values())
-
-        wait_for('the services', found)
-        self.become_known()
 
     def change_state(self, transition: str) -> bool:
         """Ask for a transition of the estimator's lifecycle by its label."""

@@ -17,26 +17,30 @@ def still(mean, count=200, seed=1, stddev=STDDEV):
     return [rng.gauss(mean, stddev) for _ in range(count)]
 
 
+def pair(tensions_l, tensions_s, biases=(0.0, 0.0)):
+    return tare({'cable_l': tensions_l, 'cable_s': tensions_s}, biases, STDDEV)
+
+
 def test_with_the_new_biases_the_mean_is_zero():
     slack_l, slack_s = still(0.12), still(-0.03, seed=2)
-    of_l, of_s = tare(slack_l, slack_s, (-0.1, 0.0), STDDEV)
+    of_l, of_s = pair(slack_l, slack_s, (-0.1, 0.0))
     assert of_l.bias == pytest.approx(-0.22, abs=4 * STDDEV / math.sqrt(200))
     assert of_s.bias == pytest.approx(0.03, abs=4 * STDDEV / math.sqrt(200))
     again = [value + of_l.bias + 0.1 for value in slack_l]
-    of_l, _ = tare(again, slack_s, (of_l.bias, 0.0), STDDEV)
+    of_l, _ = pair(again, slack_s, (of_l.bias, 0.0))
     assert abs(of_l.mean) < 1e-12
 
 
 def test_readings_that_are_none_do_not_count():
     values = [math.nan, math.inf, *still(0.1)]
-    of_l, _ = tare(values, still(0.0), (0.0, 0.0), STDDEV)
+    of_l, _ = pair(values, still(0.0))
     assert of_l.readings == 200
     assert of_l.bias == pytest.approx(-0.1, abs=0.01)
 
 
 @pytest.mark.parametrize('seed', range(50))
 def test_noise_as_it_is_stated_is_still(seed):
-    tare(still(0.3, seed=seed), still(-0.3, seed=1000 + seed), (0.0, 0.0), STDDEV)
+    pair(still(0.3, seed=seed), still(-0.3, seed=1000 + seed))
 
 
 @pytest.mark.parametrize(
@@ -52,9 +56,9 @@ def test_noise_as_it_is_stated_is_still(seed):
 )
 def test_what_is_not_still_is_refused_for_either_cable(moving, named):
     with pytest.raises(TareError, match=f'cable_l .*{named}'):
-        tare(moving, still(0.0), (0.0, 0.0), STDDEV)
+        pair(moving, still(0.0))
     with pytest.raises(TareError, match=f'cable_s .*{named}'):
-        tare(still(0.0), moving, (0.0, 0.0), STDDEV)
+        pair(still(0.0), moving)
 
 
 @pytest.fixture

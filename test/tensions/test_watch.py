@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from tendon_statics.tensions.cable_scale import RELEASE, CableScale
 from tendon_statics.tensions.reason import ReadingError, Reason
-from tendon_statics.tensions.watch import PairWatch, Plausibility, SlackSwitch
+from tendon_statics.tensions.watch import Plausibility, SlackSwitch, TensionWatch
 
 SCALES = (CableScale(slack_threshold=0.03),) * 2
 
@@ -18,7 +18,7 @@ UNCHECKED = Plausibility()
 
 def outcomes(tensions, believed=UNCHECKED, step=0.1):
     """What becomes of the tensions of cable l, one after the other: a tension or a reason."""
-    watch, found = PairWatch(), []
+    watch, found = TensionWatch(), []
     for place, tension in enumerate(tensions):
         try:
             found.append(
@@ -89,7 +89,7 @@ def test_a_cell_that_hangs_is_frozen_unless_its_cable_is_slack():
 
 @pytest.mark.parametrize('cable', [0, 1])
 def test_the_cable_at_fault_is_named(cable):
-    watch, believed = PairWatch(), Plausibility(max_rate=1.0)
+    watch, believed = TensionWatch(), Plausibility(max_rate=1.0)
     watch.take((1.0, 1.0), 0.0, SCALES, believed)
     pair = (9.0, 1.0) if cable == 0 else (1.0, 9.0)
     name = 'tension_s' if cable else 'tension_l'

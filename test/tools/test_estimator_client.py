@@ -12,7 +12,7 @@ def test_once_connected_all_hear_the_first_estimate(listener):
         listener.create_subscription(
             Estimate, 'estimator/estimate', one.append, QoSProfile(depth=10)
         )
-    with listener.estimator('-p', 'input_timeout:=60.0', greet=False):
+    with listener.estimator('-p', 'input_timeout:=60.0'):
         listener.answer(1.0, 3.0)
         wait_for('the estimate everywhere', lambda: all(heard))
         assert {len(one) for one in heard} == {1}

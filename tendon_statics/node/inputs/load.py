@@ -10,6 +10,7 @@ from geometry_msgs.msg import PoseStamped, WrenchStamped
 from sensor_msgs.msg import Imu
 
 from ...estimation.estimate import KnownLoad
+from ...estimation.measuring import Measuring
 from ...estimation.orientation import (
     OrientationError,
     Vector,
@@ -17,9 +18,8 @@ from ...estimation.orientation import (
     gravity_in_frame,
     turned,
 )
-from ...estimation.settings import Settings
 from ...physics import Load, LoadError
-from ..parameters.estimator import Wiring
+from ..wiring import CommonWiring
 
 NOT_GIVEN = -1.0
 """First element of the covariance of what an IMU does not measure"""
@@ -96,12 +96,12 @@ class LoadInputs:
     """
 
     def __init__(
-        self, wiring: Wiring, settings: Callable[[], Settings], warn: Callable[[str], None]
+        self, wiring: CommonWiring, settings: Callable[[], Measuring], warn: Callable[[str], None]
     ) -> None:
         self._settings = settings
         self._warn = warn
         self._frame_id = wiring.frame_id
-        self._known: tuple[Settings, KnownLoad] | None = None
+        self._known: tuple[Measuring, KnownLoad] | None = None
         self._gravity: Measured[Vector] | None = None
         self._tip_force: Measured[tuple[float, float]] | None = None
         self.inputs: dict[str, tuple[type, Callable[[Any], None]]] = {}
@@ -144,7 +144,7 @@ class LoadInputs:
                 return known._replace(is_assured=False)
         return known
 
-    def _work_out(self, settings: Settings) -> KnownLoad:
+    def _work_out(self, settings: Measuring) -> KnownLoad:
         direction: Vector | None = settings.gravity_direction
         if self._gravity is not None:
             direction = self._gravity.value or direction
@@ -196,9 +196,7 @@ class LoadInputs:
         """
         frame_id = message.header.frame_id
         if frame_id not in ('', self._frame_id):
-            raise LoadError(
-                f"it is in the frame {frame_id}; in the joint's, {self._frame_id}, it is needed"
-            )
+            raise LoadError(f'it is in the frame {frame_id}; in {self._frame_id} it is needed')
         force = message.wrench.force
         return Load(tip_force=(force.x, force.z)).tip_force
 

@@ -1,37 +1,14 @@
-"""What there is to say of one pair of tensions, topic by topic."""
+"""What there is to say of a unit after one pair of tensions, topic by topic."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import cached_property
-from typing import Any
-
-from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64, Float64MultiArray, Header, String
+from std_msgs.msg import Float64, Float64MultiArray, String
 
-from ...estimation.estimate import Estimate
 from ...physics import Regime
 from . import messages
-
-
-class Finding:
-    """What there is to say of one pair of tensions, with a header for all that have one."""
-
-    def __init__(self, estimate: Estimate, header: Header, stamp: Callable[[], Time]) -> None:
-        self.estimate = estimate
-        self._header = header
-        self._stamp = stamp
-
-    @cached_property
-    def header(self) -> Header:
-        """Header of all messages that have one, stamped when it is first asked for."""
-        self._header.stamp = self._stamp()
-        return self._header
-
-
-Fill = Callable[[Any, Finding], bool]
+from .publishers import Fill, Finding, Topics
 
 # One function for each topic. It fills the message, or returns False where nothing is determined.
 
@@ -103,3 +80,14 @@ FILLS: dict[str, tuple[type, Fill]] = {
 
 if not messages.INTERFACES_MISSING:
     FILLS['~/estimate'] = (messages.Estimate, _fill_estimate)
+
+
+def unit_topics(joint_name: str) -> Topics:
+    """Return what the estimator of a unit says of it."""
+    return Topics(
+        FILLS,
+        (joint_name,),
+        '~/regime',
+        lambda estimate: estimate.regime,
+        lambda regime, _header: String(data=regime),
+    )

@@ -173,8 +173,8 @@ def _fill_exact(message: Estimate, exact: Equilibrium | None) -> None:
     message.pressure_by_tension_l, message.pressure_by_tension_s = pressure_gradient
 
 
-def asked_load(request: Solve.Request, known: KnownLoad) -> KnownLoad:
-    """Return the load of a request of ``~/solve``, or the one that is known.
+def asked_load(request: Any, known: KnownLoad) -> KnownLoad:
+    """Return the load of a request of ``~/solve`` or ``~/solve_arm``, or the one that is known.
 
     Raises
     ------
@@ -182,7 +182,8 @@ def asked_load(request: Solve.Request, known: KnownLoad) -> KnownLoad:
         If it is not valid, or gives a tip force without gravity's direction.
     """
     direction = tuple(map(float, request.gravity_direction))
-    tip_force, distance = (request.tip_force_x, request.tip_force_z), request.tip_distance
+    tip_force = request.tip_force_x, request.tip_force_z
+    distance = getattr(request, 'tip_distance', 0.0)  # of an arm it acts on its end
     if any(direction):
         return KnownLoad(Load(direction, tip_force, distance))  # type: ignore[arg-type]
     if any((*tip_force, distance)):

@@ -1,26 +1,22 @@
-"""Changes of the estimator's parameters: each value by itself, and all of them as a whole."""
+"""Changes of an estimator's parameters: each value by itself, and all of them as a whole."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic
 
 from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.parameter import Parameter
 
-from ...estimation.settings import Settings
-from ...files.design_file import UNCERTAINTY
-from ...files.estimator_parameters import DESIGN
 from ...files.parameter_kinds import MisfitError, SettingError
-from ...files.unit_settings import check_parameters
-from .estimator import in_its_type, read_settings
+from .table import NodeTable, S
 
 if TYPE_CHECKING:
-    from ..estimator import Estimator
+    from ..managed_estimator import ManagedEstimator
 
 
-class Changes:
+class Changes(Generic[S]):
     """Takes what is set while the node runs.
 
     What clients set together is taken or refused as a whole. ROS's other way, one by one, cannot
@@ -30,6 +26,8 @@ class Changes:
 
     Parameters
     ----------
+    table : NodeTable
+        The parameters.
     take : callable
         Takes the settings of a whole set.
     warn : callable
@@ -37,15 +35,20 @@ class Changes:
     """
 
     def __init__(
-        self, node: Estimator, take: Callable[[Settings], None], warn: Callable[[str], None]
+        self,
+        node: ManagedEstimator[S, Any],
+        table: NodeTable[S],
+        take: Callable[[S], None],
+        warn: Callable[[str], None],
     ) -> None:
         self.misfit = ''
         """Why the parameters, as they are, are not in force; empty if they are"""
         self._node = node
+        self._table = table
         self._take = take
         self._warn = warn
         self._is_one_by_one = False
-        node.add_pre_set_parameters_callback(lambda given: list(map(in_its_type, given)))
+        node.add_pre_set_parameters_callback(lambda given: list(map(table.in_its_type, given)))
         node.add_on_set_parameters_callback(self._check)
         node.add_post_set_parameters_callback(self._note)
         # Before the node spins, so that no executor knows them yet.
@@ -57,7 +60,7 @@ class Changes:
 
     def set_together(self, parameters: Iterable[Parameter]) -> SetParametersResult:
         """Set all or none, with the reason."""
-        given = list(map(in_its_type, parameters))
+        given = list(map(self._table.in_its_type, parameters))
         if not given:
             return SetParametersResult(successful=True)
         objection = self._objection(given)
@@ -82,15 +85,14 @@ class Changes:
         self, request: SetParameters.Request, response: SetParameters.Response
     ) -> SetParameters.Response:
         given = [Parameter.from_parameter_msg(message) for message in request.parameters]
-        design = [of for of in given if of.name.startswith((DESIGN, UNCERTAINTY))]
+        whole = [of for of in given if of.name.startswith(self._table.whole)]
         self._is_one_by_one = True
         try:
-            of_design = self.set_together(design)
-            if not of_design.successful and len(design) > 1:
-                of_design.reason += '; none of the design is set that came with it'
+            of_whole = self.set_together(whole)
+            if not of_whole.successful and len(whole) > 1:
+                of_whole.reason += f'; none of {self._table.whole_is} is set that came with it'
             results = [
-                of_design if parameter in design else self._set_one(parameter)
-                for parameter in given
+                of_whole if parameter in whole else self._set_one(parameter) for parameter in given
             ]
         finally:
             self._is_one_by_one = False
@@ -113,7 +115,7 @@ class Changes:
         if (
             node.has_parameter(name)
             and node.describe_parameter(name).read_only
-            and in_its_type(parameter).value == node.get_parameter(name).value
+            and self._table.in_its_type(parameter).value == node.get_parameter(name).value
         ):
             return SetParametersResult(successful=True)
         return self.set_together([parameter])
@@ -127,7 +129,7 @@ class Changes:
             if parameter.type_ == Parameter.Type.NOT_SET:
                 return f'{name} cannot be deleted, only set to another value'
             try:
-                check_parameters({name: parameter.value})
+                self._table.check({name: parameter.value})
             except SettingError as error:
                 return str(error)
         return ''
@@ -138,7 +140,7 @@ class Changes:
         objection = self._objection(parameters)
         if not objection and self._node.is_configured:  # before, the whole is on configuring
             try:
-                read_settings(self._node, parameters)
+                self._table.read(self._node, parameters)
             except MisfitError as error:
                 objection = '' if self._is_one_by_one else str(error)
             except SettingError as error:
@@ -157,7 +159,7 @@ class Changes:
         if not self._node.is_configured:
             return
         try:
-            settings: Any = read_settings(self._node)
+            settings = self._table.read(self._node)
         except MisfitError as error:
             misfit = f'parameters do not fit together, so that those before stay in force: {error}'
             is_new, self.misfit = misfit != self.misfit, misfit

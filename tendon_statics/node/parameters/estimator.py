@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from rclpy.node import Node
-from rclpy.parameter import Parameter as ROSParameter
 
 from ...estimation.settings import Settings
-from ...files.design_file import default_design_path, load_design
+from ...files.design_file import UNCERTAINTY, default_design_path, load_design
 from ...files.estimator_parameters import CHANGEABLE, DESIGN, WIRING, design_table
-from ...files.parameter_kinds import Parameter, SettingError
-from ...files.unit_settings import settings_from
+from ...files.parameter_kinds import SettingError
+from ...files.unit_settings import check_parameters, settings_from
 from ...physics import DesignError, JointDesign, design_fields
-from .declaration import converted, declare_all, read_all
+from .declaration import declare_all
+from .table import NodeTable
 
 
 class Wiring(NamedTuple):
@@ -35,6 +33,11 @@ class Wiring(NamedTuple):
     service_depth: int
     autostart: bool
 
+    @property
+    def hardware_id(self) -> str:
+        """In ``/diagnostics``."""
+        return self.joint_name
+
 
 def declare_wiring(node: Node) -> Wiring:
     """Declare what is fixed and return what it is set to.
@@ -47,13 +50,13 @@ def declare_wiring(node: Node) -> Wiring:
     return Wiring(**declare_all(node, WIRING))
 
 
-def declare_settings(node: Node) -> set[str]:
-    """Declare what may change; `read_settings` has what it is set to.
+def declare_settings(node: Node, table: NodeTable[Settings]) -> set[str]:
+    """Declare what may change; `NodeTable.read` has what it is set to.
 
     Returned are the names of those of the design that were not given.
 
     Design parameters that are left out come from the installed preliminary design, with a warning
-    if only a part is given. Values that are not allowed are kept, for `read_settings` to refuse.
+    if only a part is given. Values that are not allowed are kept, for `NodeTable.read` to refuse.
 
     Raises
     ------
@@ -89,34 +92,18 @@ def declare_settings(node: Node) -> set[str]:
             'The parameters give a part of the design only; taken from the preliminary design: '
             + ', '.join(f'{DESIGN}{name} = {getattr(default, name)!r}' for name in left_out)
         )
-    declare_all(node, _changeable())
+    table.declare_changeable(node)
     return {DESIGN + name for name in left_out}
 
 
-def read_settings(node: Node, changes: Iterable[Any] = ()) -> Settings:
-    """Return what the parameters of a node are set to, with these ROS parameters changed.
-
-    Raises
-    ------
-    SettingError
-        If the whole is not valid.
-    """
-    values = read_all(node, _changeable(), changes)
-    return settings_from({**values, 'estimation': node.get_parameter('estimation').value})
-
-
-def in_its_type(given: ROSParameter) -> ROSParameter:
-    """Return what is set in the type that the node keeps, if it can be meant as such."""
-    parameter = _by_name().get(given.name)
-    return given if parameter is None else converted(parameter, given)
-
-
-@cache
-def _by_name() -> dict[str, Parameter]:
-    return {parameter.name: parameter for parameter in (*_changeable(), *WIRING)}
-
-
-@cache
-def _changeable() -> tuple[Parameter, ...]:
-    """All that may be set again."""
-    return (*design_table(load_design(default_design_path())), *CHANGEABLE)
+def unit_table() -> NodeTable[Settings]:
+    """Return the table of a unit's estimator; the design's defaults come from a file."""
+    design = design_table(load_design(default_design_path()))
+    return NodeTable(
+        WIRING,
+        (*design, *CHANGEABLE),
+        check_parameters,
+        settings_from,
+        (DESIGN, UNCERTAINTY),
+        'the design',
+    )

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..load import Load
-from ..state import Equilibrium, Regime
+from ..regime import Regime
+from ..state import Equilibrium
 from .arm import Arm
 from .shape import TipPose, tip_by_angles, tip_pose
 
@@ -102,13 +103,21 @@ class ArmState:
 
     def tip_stddev(self, tension_stddev: float) -> TipPose | None:
         """Return the standard deviations of the tip's pose in the same way."""
+        covariance = self.tip_covariance(tension_stddev)
+        if covariance is None:
+            return None
+        return TipPose(*(math.sqrt(max(float(of), 0.0)) for of in covariance.diagonal()))
+
+    def tip_covariance(self, tension_stddev: float) -> NDArray[np.float64] | None:
+        """Return the covariance of the tip's (x, z, tilt) in m, m and rad in the same way."""
         angles = self.bend_angles
         if angles is None:
             return None
         by_angle = np.array(tip_by_angles(self.arm, angles))
-        variances = (by_angle.T @ self._covariance @ by_angle).diagonal()
-        deviations = [_deviation(variance, tension_stddev) for variance in variances]
-        return None if None in deviations else TipPose(*deviations)  # type: ignore[arg-type]
+        found: NDArray[np.float64] = (
+            tension_stddev * tension_stddev * (by_angle.T @ self._covariance @ by_angle)
+        )
+        return None if np.isnan(found).any() else found
 
     def as_dict(self) -> dict[str, Any]:
         """Return all but arm and load by name, ready for JSON."""

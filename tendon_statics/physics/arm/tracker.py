@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from ..load import UPRIGHT, Load
 from ..loaded_joint import LoadedJoint
-from ..state import Equilibrium, Regime
+from ..regime import Regime
+from ..state import Equilibrium
 from ..tensions import Tensions
 from ..tracker import StickSlipTracker
 from .arm import Arm

@@ -15,8 +15,8 @@ from ..design import JointDesign
 from ..forces import ContactForces, ForceRemainder, contact_forces
 from ..gradients import TensionGradient, angle_by_tensions, normal_by_tensions, of_sides
 from ..load import Load
+from ..regime import Regime
 from ..slip import Slip, SlipPoint
-from ..state import Regime
 from .pairs import chunks, dead_arrays, facing_slips
 
 REGIME_CODES = {regime: code for code, regime in enumerate(Regime)}

@@ -12,9 +12,9 @@ from ..array_roots import Floats, Lines, array_brackets, array_refine
 from ..design import JointDesign
 from ..errors import TensionError
 from ..load import UPRIGHT, Load
+from ..regime import Regime
 from ..slip import Slip
 from ..solver import solve
-from ..state import Regime
 from ..tensions import MAX_TENSION
 from .pairs import broadcast, chunks, dead_arrays, excess_of, facing_slips
 from .results import INVALID, REGIME_CODES, EquilibriumBatch

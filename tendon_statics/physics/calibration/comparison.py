@@ -16,6 +16,7 @@ from collections.abc import Sequence
 
 from ..contact import CONTACT_LAWS
 from ..design import JointDesign
+from ..deviations import BEND_ANGLE_STDDEV, TENSION_STDDEV
 from ..errors import CalibrationError, DesignError
 from ..load import UPRIGHT, Load
 from .experiments import advice
@@ -36,8 +37,8 @@ def compare_laws(
     data: Samples,
     fit: Sequence[str] = DEFAULT_FIT,
     *,
-    tension_stddev: float = 0.01,
-    bend_angle_stddev: float = math.radians(0.5),
+    tension_stddev: float = TENSION_STDDEV,
+    bend_angle_stddev: float = BEND_ANGLE_STDDEV,
     pressure_stddev: float | None = None,
     load: Load = UPRIGHT,
     with_advice: bool = True,

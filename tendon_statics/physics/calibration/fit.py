@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..contact import CONTACT_LAWS
 from ..design import JointDesign
+from ..deviations import BEND_ANGLE_STDDEV, TENSION_STDDEV
 from ..errors import CalibrationError
 from ..load import UPRIGHT, Load
 from .boundary_distance import Noise
@@ -40,8 +41,8 @@ def calibrate(
     data: Samples,
     fit: Sequence[str] = DEFAULT_FIT,
     *,
-    tension_stddev: float = 0.01,
-    bend_angle_stddev: float = math.radians(0.5),
+    tension_stddev: float = TENSION_STDDEV,
+    bend_angle_stddev: float = BEND_ANGLE_STDDEV,
     pressure_stddev: float | None = None,
     load: Load = UPRIGHT,
     contact_law: str | None = None,

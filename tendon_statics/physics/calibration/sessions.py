@@ -30,6 +30,8 @@ def follow_each_other(data: Samples) -> str:
     """
     if data.time is not None:
         return 'they have times'
+    if getattr(data, 'unknown_times', ''):  # of a `Recording`
+        return 'there is a column that rises as times do'
     count = len(np.atleast_1d(data.tension_l))
     if count >= MANY:
         return f'there are {count} of them'

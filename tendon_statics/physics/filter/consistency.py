@@ -20,8 +20,6 @@ from collections import deque
 from statistics import NormalDist
 from typing import NamedTuple
 
-from ..design import JointDesign
-from ..design_uncertainty import DesignUncertainty
 from ..tensions import taut_slip
 from .scores import MOVED, Boundary, Group, Reading, Score, together
 
@@ -59,17 +57,12 @@ class Consistency:
 
     Parameters
     ----------
-    design : JointDesign
-    bias_stddev : float
-        Standard deviation of the constant error of each tension in N.
-    uncertainty : DesignUncertainty, optional
-        Of the design.
+    boundary : Boundary
+        Of slip, as far as it is known.
     """
 
-    def __init__(
-        self, design: JointDesign, bias_stddev: float, uncertainty: DesignUncertainty | None
-    ) -> None:
-        self._boundary = Boundary(design, bias_stddev, uncertainty)
+    def __init__(self, boundary: Boundary) -> None:
+        self._boundary = boundary
         self._readings: list[Reading] = []
         self._groups: deque[Group] = deque(maxlen=4)
         self._rest: list[Group] = []

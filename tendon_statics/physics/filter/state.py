@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..design import JointDesign
 from ..load import Load
-from ..state import Regime
+from ..regime import Regime
 from ..tensions import Tensions
 from .ensemble import Ensemble
 from .members import Step
@@ -34,7 +34,7 @@ class FilterState:
         Angles of the possible units in rad, ascending; empty while a cable is slack.
     provisional : bool
         Whether it may be taken back when more samples have come.
-    angle_assured : bool
+    assured : bool
         False once a cable has been slack, until a stop, a measurement or a reset.
     consistency : float
         As `StickSlipFilter.consistency` then.
@@ -53,7 +53,7 @@ class FilterState:
         member_tensions: Floats,
         tension_errors: Floats,
         provisional: bool,
-        angle_assured: bool,
+        assured: bool,
         consistency: float = math.nan,
     ) -> None:
         self.design = design
@@ -61,7 +61,7 @@ class FilterState:
         self.time = time
         self.tension_l, self.tension_s = tensions
         self.provisional = provisional
-        self.angle_assured = angle_assured
+        self.assured = assured
         self.consistency = consistency
         self._angles = angles
         self._moved = moved
@@ -83,7 +83,7 @@ class FilterState:
             member_tensions=np.empty((2, 0)),
             tension_errors=np.zeros(2),
             provisional=True,
-            angle_assured=False,
+            assured=False,
         )
 
     def measured(self, angles: Floats) -> FilterState:
@@ -92,8 +92,13 @@ class FilterState:
         for name in ('members', '_step', 'regime_probabilities', '_pressures'):
             found.__dict__.pop(name, None)
         found._angles = angles
-        found.provisional, found.angle_assured = False, True
+        found.provisional, found.assured = False, True
         return found
+
+    @property
+    def angle_assured(self) -> bool:
+        """`assured`, as an `Equilibrium` calls it, for what takes either."""
+        return self.assured
 
     @cached_property
     def members(self) -> Floats:
@@ -109,7 +114,7 @@ class FilterState:
     @property
     def bend_angle_stddev(self) -> float | None:
         """Standard deviation of the angle in rad."""
-        return float(self.members.std()) if len(self.members) and self.angle_assured else None
+        return float(self.members.std()) if len(self.members) and self.assured else None
 
     def interval(self, level: float = 0.95) -> tuple[float, float] | None:
         """Return the interval in rad that holds the angle with a probability, None if unknown.

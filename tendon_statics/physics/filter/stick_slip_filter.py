@@ -14,13 +14,13 @@ from ..design import JointDesign
 from ..design_uncertainty import DesignUncertainty
 from ..errors import TensionError
 from ..load import UPRIGHT, Load
-from ..state import Regime
+from ..regime import Regime
 from ..tensions import Tensions, check_tensions, taut_slip
 from .consistency import Consistency
 from .ensemble import Ensemble
 from .members import follow
 from .recent import RecentSamples, Sample
-from .scores import Reading
+from .scores import Boundary, Reading
 from .smoothing import Estimate
 from .state import FilterState
 
@@ -95,8 +95,7 @@ class StickSlipFilter:
                 raise ValueError(f'{name} is {value!r}, allowed is {least:g} or more')
         self._design = design
         self._lag = lag
-        self._bias_stddev = tension_bias_stddev
-        self._uncertainty = design_covariance
+        self._boundary = Boundary(design, tension_bias_stddev, design_covariance)
         self._ensemble = Ensemble(design, tension_bias_stddev, design_covariance, seed)
         self._samples = RecentSamples(tension_stddev)
         self.reset(bend_angle, bend_angle_stddev)
@@ -112,7 +111,7 @@ class StickSlipFilter:
         angle = check_bend_angle(self._design, bend_angle)
         self._committed = self._newest = self._ensemble.angles(angle, stddev)
         self._assured = True
-        self._consistency = Consistency(self._design, self._bias_stddev, self._uncertainty)
+        self._consistency = Consistency(self._boundary)
         self._history: deque[FilterState] = deque(maxlen=HISTORY)
         self._forget_samples()
 
@@ -200,7 +199,7 @@ class StickSlipFilter:
             samples.popleft()
         self._measured -= first
         if not self._assured and state.regime_probabilities[Regime.DRIVEN_TO_STOP] > SURE:
-            self._assured = state.angle_assured = True
+            self._assured = state.assured = True
         self._last = state
         return state
 
@@ -223,7 +222,7 @@ class StickSlipFilter:
             member_tensions=member_tensions,
             tension_errors=tension_errors,
             provisional=provisional,
-            angle_assured=self._assured,
+            assured=self._assured,
             consistency=self.consistency,
         )
 

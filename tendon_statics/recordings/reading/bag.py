@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from ..errors import RecordingError
 from ..progress import Progress, unseen
-from ..recording import OF_LOAD, Recording
+from ..recording import Recording
+from ..session import OF_LOAD
 from .bag_beside import default_beside, find_beside, named_beside
 from .bag_storage import END_OF_TIME, Message, Messages, read_messages
 from .bag_tensions import find_tensions, tension_samples
@@ -49,10 +50,7 @@ def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Reco
     beside = find_beside(bag, topics)
     skew = round(min(topics.max_skew * 1e9, END_OF_TIME))
     times, clocked = _times([tensions.messages, beside.messages], topics.clock, skew)
-    tension_skew = topics.max_skew if topics.tension_skew is None else topics.tension_skew
-    samples = tension_samples(tensions, times, tension_skew)
-    if clocked.late & tensions.messages.keys():
-        samples.sort(key=lambda sample: sample.time)
+    samples = tension_samples(tensions, times, clocked, topics)
     at = np.array([sample.time for sample in samples], dtype=np.int64)
     origin = int(at.min())
 

@@ -9,13 +9,13 @@ from typing import Any
 
 from ..errors import RecordingError
 from .bag_load import BASES, WRENCHES, base_angles, tip_force
+from .bag_record import TEXT
 from .bag_storage import Message, Messages, without_copies
 from .bag_values import (
     DYNAMIC,
     JOINT_STATE,
     NUMBER,
     NUMBER_32,
-    TEXT,
     joints_on,
     messages_on,
     position_of,

@@ -78,15 +78,16 @@ def bag_folder(folder: Path) -> BagFolder:
     RecordingError
         If there are none.
     """
-    there = sorted(
-        (path for path in folder.iterdir() if path.is_file() and is_bag_file(path)), key=_natural
-    )
+    named = sorted((path for path in folder.iterdir() if is_bag_file(path)), key=_natural)
+    there = [path for path in named if path.is_file()]
     manifest = folder / METADATA
     bag = BagFolder(there)
     if manifest.is_file():
         bag = _by_manifest(folder, manifest, there)
-    elif len(there) > 1:
-        bag.notes.append(f'there is no {METADATA}: its files are taken by the numbers in them')
+    else:
+        if len(there) > 1:
+            bag.notes.append(f'there is no {METADATA}: its files are taken by the numbers in them')
+        bag.damage += [f'{path.name} is a link to nothing' for path in named if _is_broken(path)]
     if not bag.files and there:
         raise RecordingError(
             f'{bag.damage[0]}, and so is all else that it lists; to read one of '
@@ -99,6 +100,10 @@ def bag_folder(folder: Path) -> BagFolder:
             f'end in {", ".join(COMPRESSIONS)} after that{why}'
         )
     return bag
+
+
+def _is_broken(path: Path) -> bool:
+    return path.is_symlink() and not path.exists()
 
 
 def _by_manifest(folder: Path, manifest: Path, there: list[Path]) -> BagFolder:

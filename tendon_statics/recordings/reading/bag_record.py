@@ -11,6 +11,15 @@ UNKNOWN_TYPE = 'message of unknown type'
 CDR, ROS1 = 'cdr', 'ros1'
 
 
+TEXT = 'std_msgs/msg/String'
+
+BIG_ENDIAN, LITTLE_ENDIAN = b'\x00\x00', b'\x00\x01'
+"""What a message in CDR begins with, as ROS writes it"""
+
+CDR_HEADER = 4
+"""Bytes before the first field"""
+
+
 def type_name(name: str) -> str:
     """Return a type's name as ROS 2 writes it: ROS 1 leaves out what kind of interface it is."""
     package, _, last = name.partition('/')
@@ -30,3 +39,22 @@ class Record(NamedTuple):
     """Its content"""
     encoding: str = CDR
     """Of its content: `CDR` or `ROS1`"""
+
+
+def check_cdr(kind: str, data: bytes) -> None:
+    """Check what decoding does not see: whether a message can have been written at all.
+
+    Raises
+    ------
+    ValueError
+        If it has no header of CDR, holds nothing but zeros, or is a text that is cut.
+    """
+    start = data[: len(BIG_ENDIAN)]
+    if len(data) < CDR_HEADER or start not in (BIG_ENDIAN, LITTLE_ENDIAN):
+        raise ValueError('it has no header of CDR')
+    if not any(data):
+        raise ValueError('it holds nothing but zeros')
+    if kind == TEXT:
+        length, text = data[CDR_HEADER : 2 * CDR_HEADER], data[2 * CDR_HEADER :]
+        if len(text) < int.from_bytes(length, 'little' if start == LITTLE_ENDIAN else 'big'):
+            raise ValueError('its text is cut')

@@ -12,7 +12,7 @@ from ..errors import RecordingError
 from ..libraries import needed
 from ..progress import Progress, unseen
 from .bag_folder import BAG_ENDINGS, METADATA, BagFolder, bag_folder
-from .bag_record import CDR, PURPOSE, ROS1, Record
+from .bag_record import CDR, PURPOSE, ROS1, Record, check_cdr
 from .compression import decompressed, decompressed_message
 from .mcap_file import mcap_records
 from .ros1_file import ros1_records
@@ -184,6 +184,8 @@ class _Decoder:
         self._pure: _PureDecoder | None = None
 
     def decode(self, record: Record, data: Any) -> Any:
+        if record.encoding == CDR:
+            check_cdr(record.kind, data)
         if self._ros is not None and record.encoding == CDR:
             with suppress(LookupError):  # of a type that is not installed
                 return self._ros.decode(record.kind, data)

@@ -7,9 +7,10 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
+from ...tensions.joining import Joining, Whole
 from ...tensions.named_values import NamedValues
-from ...tensions.pairing import Pairing, Single
-from ...tensions.reason import Reason
+from ...tensions.pairing import Part
+from ...tensions.reason import Fault, Reason
 from ..errors import RecordingError
 from .bag_storage import Message, Messages, without_copies
 from .bag_values import (
@@ -23,6 +24,7 @@ from .bag_values import (
     messages_on,
     one_cable,
 )
+from .clock import Clocked
 from .topics import BagTopics
 
 NAN = math.nan
@@ -88,8 +90,8 @@ def find_tensions(bag: Messages, names: Sequence[str], topics: BagTopics) -> Ten
         return TensionMessages(
             found,
             {
-                name_l: [NamedValues(value_l=value(message)) for message in found[name_l]],
-                name_s: [NamedValues(value_s=value(message)) for message in found[name_s]],
+                name_l: [NamedValues((value(message), None)) for message in found[name_l]],
+                name_s: [NamedValues((None, value(message))) for message in found[name_s]],
             },
         )
     return _of_one_topic(bag, names[0], found[names[0]], topics)
@@ -107,9 +109,8 @@ def _of_one_topic(
     """
     read = cables_in(topics)
     values = [read(message) for message in messages]
-    has_l = any(value.value_l is not None for value in values)
-    has_s = any(value.value_s is not None for value in values)
-    if not (has_l and has_s):
+    pairs = [value.values for value in values if value.values]
+    if not all(any(pair[cable] is not None for pair in pairs) for cable in (0, 1)):
         raise RecordingError(_nothing(name, messages, values, topics))
     ours = [m for m, value in zip(messages, values, strict=True) if not value.is_foreign]
     ours = without_copies(bag, name, ours)
@@ -143,43 +144,40 @@ def _nothing(
 
 
 def tension_samples(
-    found: TensionMessages, times: Mapping[int, int], max_skew: float
+    found: TensionMessages,
+    times: Mapping[int, int],
+    clocked: Clocked,
+    topics: BagTopics,
 ) -> list[Sample]:
-    """Pair what belongs together; keep what has no partner, with NaN and the reason.
+    """Join what belongs together, as the node does; keep what is dropped, with NaN and the reason.
 
     Parameters
     ----------
     times : mapping
         `Message.order` → time in ns.
-    max_skew : float
-        s by which the two tensions of a pair may be apart.
+    clocked : Clocked
+        What these times are.
     """
     samples: list[Sample] = []
 
-    def deliver(of_l: Single, of_s: Single) -> None:
-        later = max(of_l, of_s, key=lambda single: single.time)
-        order = max(of_l.source, of_s.source)
-        samples.append(Sample(order, later.time, of_l.value, of_s.value))
+    def deliver(whole: Whole) -> None:
+        tension_l, tension_s = whole.values
+        samples.append(Sample(max(whole.sources), whole.time, tension_l, tension_s))
 
-    def drop(cable: int, of: Single) -> None:
-        pair = (of.value, NAN) if cable == 0 else (NAN, of.value)
-        samples.append(Sample(of.source, of.time, *pair, Reason.UNPAIRED.value))
+    def drop(fault: Fault, of: Part) -> None:
+        # Of what cannot be trusted, not even the value counts.
+        known = of.values if fault[0] is Reason.UNPAIRED else {}
+        pair = known.get(0, NAN), known.get(1, NAN)
+        samples.append(Sample(of.source, of.time, *pair, fault[0].value))
 
-    pairing = Pairing(lambda: max_skew, deliver, drop)
+    joining = Joining(deliver, drop, topics.cable_names, lambda: topics.pair_skew)
     arrivals = [
-        (message.order, times[message.order], values)
+        (times[message.order], message.order, topic, values)
         for topic, messages in found.messages.items()
         for message, values in zip(messages, found.values[topic], strict=True)
     ]
-    for order, time, values in sorted(arrivals, key=lambda arrival: arrival[0]):
-        value_l, value_s, fault = values
-        if fault is not None:
-            samples.append(Sample(order, time, NAN, NAN, fault[0].value))
-        elif value_l is not None and value_s is not None:
-            samples.append(Sample(order, time, value_l, value_s))
-        elif value_l is not None:
-            pairing.take(0, Single(time, value_l, order))
-        elif value_s is not None:
-            pairing.take(1, Single(time, value_s, order))
-    pairing.forget()
-    return sorted(samples, key=lambda sample: sample.order)
+    comes_late = bool(clocked.late & found.messages.keys())
+    for time, order, topic, values in sorted(arrivals, key=lambda of: of[0 if comes_late else 1]):
+        joining.take(values, time if topic in clocked.rising else 0, time, order)
+    joining.forget()
+    return sorted(samples, key=lambda of: of.time if comes_late else of.order)

@@ -16,7 +16,6 @@ ARRAY = 'std_msgs/msg/Float64MultiArray'
 ARRAY_32 = 'std_msgs/msg/Float32MultiArray'
 NUMBER = 'std_msgs/msg/Float64'
 NUMBER_32 = 'std_msgs/msg/Float32'
-TEXT = 'std_msgs/msg/String'
 JOINT_STATE = 'sensor_msgs/msg/JointState'
 DYNAMIC = 'control_msgs/msg/DynamicJointState'
 WRENCH = 'geometry_msgs/msg/WrenchStamped'
@@ -78,7 +77,7 @@ def cables_in(topics: BagTopics) -> Callable[[Message], NamedValues]:
         if len(data) != 2:
             text = f'{len(data)} values came, [tension_l, tension_s] is needed'
             return NamedValues(fault=(Reason.WRONG_LENGTH, text))
-        return NamedValues(float(data[0]), float(data[1]))
+        return NamedValues((float(data[0]), float(data[1])))
 
     def joint_state(content: Any) -> NamedValues:
         return cable_values(content.name, content.effort, topics.cable_names)
@@ -87,7 +86,7 @@ def cables_in(topics: BagTopics) -> Callable[[Message], NamedValues]:
         return _of_interface(content, topics.cable_names, topics.interface)
 
     def estimate(content: Any) -> NamedValues:
-        return NamedValues(content.tension_l, content.tension_s)
+        return NamedValues((content.tension_l, content.tension_s))
 
     by_kind: dict[str, Callable[[Any], NamedValues]] = {
         **dict.fromkeys((ARRAY, ARRAY_32), array),
@@ -107,16 +106,16 @@ def _of_interface(content: Any, cables: Sequence[str], interface: str) -> NamedV
     if of_joints.fault is not None:
         return of_joints
     found: list[float | None] = []
-    joints: tuple[Any, Any] = (of_joints.value_l, of_joints.value_s)
+    joints: tuple[Any, ...] = of_joints.values
     for of_joint in joints:
         inner = NamedValues()
         if of_joint is not None:
             names, values = of_joint.interface_names, of_joint.values
-            inner = cable_values(names, values, (interface, interface), interface)
+            inner = cable_values(names, values, (interface,), interface)
         if inner.fault is not None:
             return inner
-        found.append(inner.value_l)
-    return NamedValues(found[0], found[1])
+        found.append(next(iter(inner.values), None))
+    return NamedValues(tuple(found) if any(value is not None for value in found) else ())
 
 
 def one_cable(topics: BagTopics) -> Callable[[Message], float]:
@@ -145,10 +144,10 @@ def position_of(joint: str) -> Callable[[Message], float | None]:
         if message.kind in (NUMBER, NUMBER_32):
             return float(content.data)
         if message.kind == DYNAMIC:
-            found = _of_interface(content, (joint, joint), 'position')
+            found = _of_interface(content, (joint,), 'position')
         else:
-            found = cable_values(content.name, content.position, (joint, joint), 'position')
-        return math.nan if found.fault else found.value_l
+            found = cable_values(content.name, content.position, (joint,), 'position')
+        return math.nan if found.fault else next(iter(found.values), None)
 
     return value
 

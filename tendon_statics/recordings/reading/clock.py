@@ -111,6 +111,8 @@ class Clocked(NamedTuple):
 
     times: dict[str, Times]
     """Topic → time of each message in ns"""
+    rising: set[str]
+    """Topics that go by stamps which rise, but for messages that come late and repeated stamps"""
     late: set[str]
     """Topics single messages of which came later than they were sent, so out of their order"""
     notes: list[str]
@@ -138,7 +140,9 @@ def common_clock(topics: Mapping[str, Stamped], clock: str, max_skew: int) -> Cl
         If stamps are asked for and some messages of a topic have none.
     """
     notes: list[str] = []
-    by_stamp, late = [], set()
+    by_stamp: list[str] = []
+    rising: set[str] = set()
+    late: set[str] = set()
     for topic, times in topics.items():
         if clock == 'log' or not times.has_stamps:
             continue
@@ -152,6 +156,8 @@ def common_clock(topics: Mapping[str, Stamped], clock: str, max_skew: int) -> Cl
             continue
         by_stamp.append(topic)
         notes += objections or times.jumps(topic)
+        if not objections:
+            rising.add(topic)
         if not objections and times.steps_back(topic):
             late.add(topic)
             (place,) = times.steps_back(topic)
@@ -159,12 +165,12 @@ def common_clock(topics: Mapping[str, Stamped], clock: str, max_skew: int) -> Cl
     notes += _offsets(topics, by_stamp, max_skew)
     if clock == 'auto' and _are_apart(topics, by_stamp):
         notes.append('so all topics go by the times of recording (--clock stamp|log)')
-        by_stamp, late = [], set()
+        by_stamp, rising, late = [], set(), set()
     chosen = {
         topic: times.stamps if topic in by_stamp else times.log_times
         for topic, times in topics.items()
     }
-    return Clocked(chosen, late, notes, _named(topics, by_stamp))
+    return Clocked(chosen, rising, late, notes, _named(topics, by_stamp))
 
 
 def _named(topics: Iterable[str], by_stamp: Sequence[str]) -> str:

@@ -7,18 +7,20 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ..errors import RecordingError
-from ..recording import QUANTITIES
-from .table_options import TableOptions, unit_factor
+from .table_options import TableOptions
 from .time_column import TimeColumn, find_time
-from .units import parse_column, split_title
+from .time_titles import (
+    parse_time_title,
+    place_of_date,
+    place_of_nanoseconds,
+    time_unit,
+)
+from .units import Quantities, split_title
 
 _ONLY_NUMBERS = re.compile(r'[-+.,;|\s\deE]*\d[-+.,;|\s\deE]*')
 """One, or several in a line whose separator the titles do not tell"""
 
-REQUIRED = ('tension_l', 'tension_s')
-
-READINGS = ('reading_l', 'reading_s')
-"""Columns of a replay: what was recorded, where a gain and bias made tensions in N of it"""
+_ROUND_BRACKETS = re.compile(r'(.*?)\s*\(\s*([^()]*?)\s*\)')
 
 
 class Column(NamedTuple):
@@ -38,6 +40,8 @@ class Columns(NamedTuple):
     """By quantity; without the time"""
     time: TimeColumn | None = None
     state: int | None = None
+    others: tuple[int, ...] = ()
+    """Places of what is left alone"""
     in_newtons: bool = False
     """Whether the tensions are in N for certain, since their units are said"""
 
@@ -51,48 +55,56 @@ def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> 
         If a tension has no column, a quantity has two, or a unit is not known.
     """
     options = options or TableOptions()
+    quantities = options.quantities
     found: dict[str, Column] = {}
     for quantity, title in options.columns.items():
-        found[quantity] = _named(quantity, title, titles)
+        found[quantity] = _named(quantity, title, titles, quantities)
     named = {column.place for column in found.values()}
     by_itself: set[str] = set()
     for place, title in enumerate(titles):
         if place in named or split_title(title)[0] in options.columns:
             continue
-        name, factor = parse_column(title)
-        if name not in (*QUANTITIES, 'state') or name in options.columns:
+        name, factor = quantities.parse(title)
+        if name not in quantities.kinds or name in options.columns:
             continue
         if name in by_itself:
             raise RecordingError(f'there are two columns of {name}')
         by_itself.add(name)
         found[name] = Column(place, factor, split_title(title)[1] is not None)
-    for name in REQUIRED:
+    needed = quantities.required
+    for name in needed:
         if name not in found:
             raise RecordingError(
-                f'there is no column {name}; {", ".join(REQUIRED)} are needed, ' + _there(titles)
+                f'there is no column {name}; {", ".join(needed)} are needed, '
+                + _there(titles, needed)
             )
     for quantity, unit in options.units.items():
-        if quantity in found:
-            found[quantity] = _with_unit(quantity, unit, found[quantity], titles)
+        if quantity in found and quantity != 'time':
+            factor = quantities.factor(quantity, unit)
+            found[quantity] = _with_unit(unit, factor, found[quantity], titles)
     time = _time(found.pop('time', None), titles, options)
     state = found.pop('state', None)
-    in_newtons = all(found[name].has_unit for name in REQUIRED) or set(READINGS) <= set(titles)
-    return Columns(found, time, None if state is None else state.place, in_newtons)
+    in_newtons = all(found[name].has_unit for name in needed)
+    in_newtons = in_newtons or set(quantities.readings) <= set(titles)
+    used = {column.place for column in found.values()} | {*(time.places if time else ())}
+    used |= set() if state is None else {state.place}
+    others = tuple(place for place in range(len(titles)) if place not in used)
+    return Columns(found, time, None if state is None else state.place, others, in_newtons)
 
 
-def _there(titles: Sequence[str]) -> str:
+def _there(titles: Sequence[str], needed: Sequence[str]) -> str:
     """Say which columns there are instead, and what to do."""
     there = [title for title in titles if title]
     if there and all(_ONLY_NUMBERS.fullmatch(title) for title in there):
         return (
             'but the first line has numbers in place of titles; put titles above it, such as '
-            'tension_l,tension_s'
+            + ','.join(needed)
         )
-    missing = ','.join(f'{name}=TITLE' for name in REQUIRED if name not in there)
+    missing = ','.join(f'{name}=TITLE' for name in needed if name not in there)
     return f'there are: {", ".join(there) or "none"} (--columns {missing} names them)'
 
 
-def _named(quantity: str, title: str, titles: Sequence[str]) -> Column:
+def _named(quantity: str, title: str, titles: Sequence[str], quantities: Quantities) -> Column:
     """Return the column that an option names.
 
     Raises
@@ -100,20 +112,37 @@ def _named(quantity: str, title: str, titles: Sequence[str]) -> Column:
     RecordingError
         If there is none, or more than one.
     """
-    places = [place for place, name in enumerate(titles) if title in (name, split_title(name)[0])]
+    places = [place for place, name in enumerate(titles) if title == name]
+    places = places or [
+        place
+        for place, name in enumerate(titles)
+        if title == _split(name, quantity, quantities)[0]
+    ]
     if len(places) != 1:
         raise RecordingError(
             f'there is no column {title!r} to be {quantity}; there are: {", ".join(titles)}'
             if not places
             else f'there are {len(places)} columns {title!r}'
         )
-    unit = split_title(titles[places[0]])[1]
-    if unit is None or quantity == 'state':
+    unit = _split(titles[places[0]], quantity, quantities)[1]
+    if unit is None or not quantities.has_units(quantity):
         return Column(places[0], 1.0)
-    return Column(places[0], unit_factor(quantity, unit), has_unit=True)
+    return Column(places[0], quantities.factor(quantity, unit), has_unit=True)
 
 
-def _with_unit(quantity: str, unit: str, column: Column, titles: Sequence[str]) -> Column:
+def _split(title: str, quantity: str, quantities: Quantities) -> tuple[str, str | None]:
+    """Split a title into name and unit, which here may stand in round brackets too."""
+    name, unit = split_title(title)
+    round_ones = _ROUND_BRACKETS.fullmatch(title.strip())
+    if unit is not None or round_ones is None or not quantities.has_units(quantity):
+        return name, unit
+    name, unit = round_ones.groups()
+    known = time_unit(unit) is not None if quantity == 'time' else None
+    is_unit = unit in quantities.kinds[quantity].units if known is None else known
+    return (name, unit) if is_unit else (title.strip(), None)
+
+
+def _with_unit(unit: str, factor: float, column: Column, titles: Sequence[str]) -> Column:
     """Give a column the unit that an option says.
 
     Raises
@@ -121,7 +150,6 @@ def _with_unit(quantity: str, unit: str, column: Column, titles: Sequence[str]) 
     RecordingError
         If its title has another.
     """
-    factor = unit_factor(quantity, unit)
     if column.has_unit and column.factor != factor:
         raise RecordingError(
             f'the unit of {titles[column.place]!r} stands in its title, and --units says {unit}'
@@ -132,10 +160,32 @@ def _with_unit(quantity: str, unit: str, column: Column, titles: Sequence[str]) 
 def _time(
     column: Column | None, titles: Sequence[str], options: TableOptions
 ) -> TimeColumn | None:
-    unit = options.units.get('time')
+    """Return where the time stands, by an option, by its name, or by what exporters call it.
+
+    Raises
+    ------
+    RecordingError
+        If its title has another unit than the option, or one that is none.
+    """
     if column is None:
         found = find_time(titles)
-        return found if found is None or unit is None else found._replace(unit=unit)
-    if column.has_unit:
-        unit = unit or split_title(titles[column.place])[1]
-    return TimeColumn(column.place, titles[column.place], unit)
+    else:
+        title = titles[column.place].strip()
+        parsed = parse_time_title(title)
+        found = TimeColumn(
+            column.place,
+            title,
+            time_unit(_split(title, 'time', options.quantities)[1] or '')
+            or (parsed.unit if parsed else None),
+            place_of_nanoseconds(titles, column.place),
+            place_of_date(titles),
+        )
+    said = options.units.get('time')
+    if found is None or said is None:
+        return found
+    unit = time_unit(said)
+    if found.unit not in (None, unit):
+        raise RecordingError(
+            f'the unit of {found.title!r} stands in its title, and --units says {said}'
+        )
+    return found._replace(unit=unit)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from io import BytesIO
 from pathlib import Path
 from typing import IO, Any
 
@@ -63,6 +64,16 @@ def decompressed_message(data: Any) -> Any:
         (frame,) = needed('lz4.frame', purpose=PURPOSE)
         return frame.decompress(data)
     return data
+
+
+def decompressed_beginning(data: bytes, kind: str) -> bytes:
+    """Return what is in data that were cut, as far as they go; ``''`` is no compression."""
+    if not kind:
+        return data
+    blocks: list[bytes] = []
+    with suppress(Exception):  # each library has its own
+        blocks.extend(_content(BytesIO(data), kind)[0])
+    return b''.join(blocks)
 
 
 def _content(file: IO[bytes], kind: str) -> tuple[Iterator[bytes], int]:

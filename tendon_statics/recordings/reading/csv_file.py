@@ -11,13 +11,13 @@ import numpy as np
 
 from ..errors import RecordingError
 from ..progress import Progress, unseen
-from ..recording import Recording
+from .clock_like import Candidate, may_be_clock
 from .columns import Column, Columns, find_columns
-from .table import table_recording
+from .table import Table
 from .table_options import TableOptions
 from .text_form import recognise
-from .text_lines import TextForm, bare
-from .time_column import is_iso, times_of, times_of_iso
+from .text_lines import DECIMAL_COMMA, TextForm, bare, no_utf_8
+from .time_column import MOMENTS, Times, is_moment, is_of_day, times_of, times_of_moments
 
 LINE_ENDS = (b'\n', b'\r')
 
@@ -30,7 +30,7 @@ MOST_SHOWN = 80
 
 def load_csv(
     path: Path, options: TableOptions | None = None, progress: Progress = unseen
-) -> Recording:
+) -> Table:
     """Read a text file with a table whose titles name the columns, as `load_recording` does.
 
     Empty lines and comments are left alone; an empty field is NaN. A line that is not as long as
@@ -44,11 +44,11 @@ def load_csv(
     rows = _Rows(form, find_columns(form.titles, options))
     for number, line in progress(form.rows, 'reading'):
         rows.take(number, line)
-    return rows.recording(path.name, (*notes, *form.notes))
+    return rows.table(path.name, (*notes, *form.notes))
 
 
-class _NoNumberError(ValueError):
-    """A field that has no number where there should be one."""
+class _FieldError(ValueError):
+    """A field that has not what should stand there; the text is for the user."""
 
 
 class _Rows:
@@ -65,7 +65,12 @@ class _Rows:
         self._states: list[str] = []
         self._damage: list[str] = []
         self._shortest = 0  # last field so far, in characters
-        self._is_iso: bool | None = None
+        self._is_moment: bool | None = None
+        self._candidates = {
+            place: Candidate()
+            for place in (() if columns.time else columns.others)
+            if may_be_clock(form.titles[place])
+        }
 
     def take(self, number: int, line: bytes) -> None:
         """Take a row, or name what is wrong with it."""
@@ -78,7 +83,9 @@ class _Rows:
                 raise ValueError(f'{len(fields)} fields')
         except (ValueError, IndexError, csv.Error) as error:
             place = f'line {number}, {_shown(line)}'
-            why = f': {error}' if isinstance(error, _NoNumberError) else ''
+            why = f': {error}' if isinstance(error, _FieldError) else ''
+            if isinstance(error, UnicodeDecodeError):
+                why = f': {no_utf_8(error)}'
             self._damage.append(
                 f'{place}, is not a row of {self._form.separator.join(titles)}{why}'
             )
@@ -100,8 +107,13 @@ class _Rows:
             self._nanoseconds.append(time[1])
         if self._columns.state is not None:
             self._states.append(fields[self._columns.state])
+        self._candidates = {
+            place: candidate
+            for place, candidate in self._candidates.items()
+            if candidate.take(fields[place], self._plain)
+        }
 
-    def recording(self, name: str, notes: Sequence[str]) -> Recording:
+    def table(self, name: str, notes: Sequence[str]) -> Table:
         """Return what was read.
 
         Raises
@@ -109,41 +121,74 @@ class _Rows:
         RecordingError
             If that is no row.
         """
-        if not self._values['tension_l']:
+        if not any(self._values.values()):
             why = f'; {self._damage[0]}' if self._damage else ''
             raise RecordingError(f'there is no row of tensions in it{why}')
-        column, times = self._columns.time, None
-        if column is not None and self._is_iso:
-            times = times_of_iso(column, self._texts)
-        elif column is not None:
-            rest = None if column.nanoseconds is None else np.array(self._nanoseconds)
-            times = times_of(column, np.array(self._times), rest)
-        return table_recording(
+        times, clock_like = self._clock()
+        return Table(
             name,
             self._columns,
             {quantity: np.array(values) for quantity, values in self._values.items()},
             times,
+            clock_like,
             None if self._columns.state is None else self._states,
             damage=self._damage,
             notes=notes,
         )
 
+    def _clock(self) -> tuple[Times | None, str | None]:
+        """Return the times, or the title of what behaves like a clock and is not one for sure."""
+        column = self._columns.time
+        if column is None:
+            return self._found_clock()
+        if self._is_moment:
+            return times_of_moments(column, self._texts), None
+        rest = None if column.nanoseconds is None else np.array(self._nanoseconds)
+        return times_of(column, np.array(self._times), rest), None
+
+    def _found_clock(self) -> tuple[Times | None, str | None]:
+        titles = self._form.titles
+        sure = [
+            times
+            for place, candidate in self._candidates.items()
+            for times in [candidate.times(titles[place])]
+            if times is not None
+        ]
+        if len(sure) == 1:
+            return sure[0], None
+        return None, next(
+            (
+                titles[place]
+                for place, candidate in self._candidates.items()
+                if candidate.is_clock or len(sure) > 1
+            ),
+            None,
+        )
+
     def _time(self, fields: list[str]) -> str | tuple[float, float] | None:
-        """Return a row's time: a text of ISO 8601, or the number with what is to be added."""
+        """Return a row's time: a date and time, or the number with what is to be added."""
         column = self._columns.time
         if column is None:
             return None
         text = fields[column.place]
-        if self._is_iso is None and text:
-            self._is_iso = is_iso(text)
-        if self._is_iso:
-            if text and not is_iso(text):
-                raise ValueError(text)
+        if column.date is not None and is_of_day(text):
+            text = f'{fields[column.date]} {text}'
+        if self._is_moment is None and text:
+            self._is_moment = is_moment(text)
+        if self._is_moment:
+            if text and not is_moment(text):
+                raise _FieldError(f'{_shown(text.encode())} is no time, as in {MOMENTS}')
             return text
         rest = 0.0
         if column.nanoseconds is not None:
             rest = self._plain(fields[column.nanoseconds])
-        return self._plain(text), rest
+        try:
+            return self._plain(text), rest
+        except _FieldError:
+            raise _FieldError(
+                f'{_shown(text.encode())} is no time: numbers are read, and dates as in '
+                f'{MOMENTS}; --columns time=TITLE names another column'
+            ) from None
 
     def _number(self, fields: list[str], column: Column) -> float:
         return column.factor * self._plain(fields[column.place])
@@ -160,7 +205,10 @@ class _Rows:
                 raise ValueError  # Python takes 1_5 for 15.
             return float(number)
         except ValueError:
-            raise _NoNumberError(f'{_shown(text.encode())} is no number') from None
+            hint = ''
+            if self._form.decimal == '.' and DECIMAL_COMMA.fullmatch(text):
+                hint = ' (--decimal , if commas separate decimals)'
+            raise _FieldError(f'{_shown(text.encode())} is no number{hint}') from None
 
 
 def _shown(line: bytes) -> str:

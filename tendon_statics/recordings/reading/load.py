@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 
+from ...physics.arm import Arm
+from ..arm_recording import ArmRecording
 from ..errors import RecordingError, one_line
 from ..progress import Progress, unseen
 from ..recording import Recording
+from ..session import Own
 from .bag_folder import BAG_ENDINGS, is_bag_file
+from .table import Table
 from .table_options import TableOptions
 from .topics import BagTopics
+from .units import of_arm
 
 TEXT_ENDINGS = ('.csv', '.tsv', '.lvm')
 ENDINGS = (*TEXT_ENDINGS, '.parquet', '.mat', *BAG_ENDINGS)
@@ -64,19 +71,64 @@ def load_recording(
         that the format needs.
     """
     path = Path(path)
-    try:
+    with _named(path):
         if path.is_dir() or is_bag_file(path):
             from .bag import load_bag
 
             return load_bag(path, topics or BagTopics(), progress)
-        return _timed(_table(path, table, progress), table)
+        return _timed(_table(path, table, progress).of_unit(), table)
+
+
+def load_arm_recording(
+    path: str | Path,
+    arm: Arm,
+    table: TableOptions | None = None,
+    *,
+    progress: Progress = unseen,
+) -> ArmRecording:
+    """Read a recorded session of an arm, as `load_recording` reads that of a unit.
+
+    A table has a column for the tension of each cable, at the base, titled with its name, and,
+    where there are such, ``time``, the load, and measured angles ``bend_angle_1`` and so on, from
+    the base on. What else is in it is left alone.
+
+    Parameters
+    ----------
+    arm : Arm
+    table : TableOptions, optional
+        Of a table. Where columns or units are named, it has to be made with the arm's quantities:
+        ``TableOptions(quantities=of_arm(arm), ...)``.
+
+    Raises
+    ------
+    RecordingError
+        As `load_recording` does.
+    """
+    path = Path(path)
+    options = dataclasses.replace(table or TableOptions(), quantities=of_arm(arm))
+    with _named(path):
+        found = _table(path, options, progress)
+        return _timed(found.of_arm(arm.cable_names, len(arm.units)), options)
+
+
+@contextmanager
+def _named(path: Path) -> Iterator[None]:
+    """Name the file in whatever is wrong with it.
+
+    Raises
+    ------
+    RecordingError
+        In place of any error of the system, too.
+    """
+    try:
+        yield
     except RecordingError as error:
         raise RecordingError(f'{path}: {one_line(error)}') from None
     except OSError as error:
         raise RecordingError(f'{path}: it cannot be read: {error.strerror or error}') from None
 
 
-def _timed(recording: Recording, options: TableOptions | None) -> Recording:
+def _timed(recording: Own, options: TableOptions | None) -> Own:
     """Give the rows of a table without times those that its rate makes.
 
     Raises
@@ -91,6 +143,7 @@ def _timed(recording: Recording, options: TableOptions | None) -> Recording:
     return dataclasses.replace(
         recording,
         time=np.arange(len(recording)) / options.rate,
+        unknown_times='',
         notes=(*recording.notes, f'time: {options.rate:g} rows per second, as was said'),
     )
 
@@ -100,7 +153,7 @@ def is_recording_file(path: Path) -> bool:
     return path.suffix in ENDINGS or is_bag_file(path)
 
 
-def _table(path: Path, options: TableOptions | None, progress: Progress) -> Recording:
+def _table(path: Path, options: TableOptions | None, progress: Progress) -> Table:
     if path.suffix == '.parquet':
         from .parquet_file import load_parquet
 

@@ -11,16 +11,17 @@ import numpy as np
 from ..errors import RecordingError, one_line
 from ..libraries import needed
 from ..progress import Progress, unseen
-from ..recording import Floats, Recording
+from ..session import Floats
+from .clock_like import behaves_like_clock, may_be_clock
 from .columns import find_columns
-from .table import table_recording
+from .table import Table
 from .table_options import TableOptions
 from .time_column import times_of
 
 
 def load_mat(
     path: Path, options: TableOptions | None = None, progress: Progress = unseen
-) -> Recording:
+) -> Table:
     """Read a ``.mat`` file, as `load_recording` does: each variable, or field of a struct.
 
     Of a field the last part of its name counts, ``run.tension_l``, where that is the only one of
@@ -44,15 +45,25 @@ def load_mat(
             raise RecordingError(f'the variable {names[place]} holds no column of numbers')
         return np.atleast_1d(values.squeeze()).astype(np.float64)
 
+    def is_clock(place: int) -> bool:
+        try:
+            values = numbers(place)
+        except RecordingError:
+            return False
+        return len(values) == count and behaves_like_clock(values)
+
     time = columns.time
+    count = len(numbers(next(iter(columns.numbers.values())).place))
+    others = [at for at in (() if time else columns.others) if may_be_clock(titles[at])]
     state = None
     if columns.state is not None:
         state = [str(value) for value in np.atleast_1d(arrays[names[columns.state]]).tolist()]
-    return table_recording(
+    return Table(
         path.name,
         columns,
         {name: numbers(column.place) * column.factor for name, column in columns.numbers.items()},
         None if time is None else times_of(time, numbers(time.place)),
+        next((titles[at] for at in others if is_clock(at)), None),
         state,
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import struct
 import zlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
 from io import BytesIO
 from pathlib import Path
 from typing import IO, Any
@@ -13,9 +13,24 @@ from typing import IO, Any
 from ..errors import RecordingError
 from ..libraries import needed
 from .bag_record import PURPOSE, UNKNOWN_TYPE, Record, type_name
+from .compression import decompressed_beginning
 
 MAGIC = b'\x89MCAP0\r\n'
 """What a file begins and ends with"""
+
+RECORD = struct.Struct('<BQ')
+"""Kind of a record, never 0, and length of what follows"""
+
+CHUNK = struct.Struct('<QQQII')
+"""What a chunk begins with; the last is the length of the name of its compression"""
+
+LENGTH = struct.Struct('<Q')
+
+LONGEST_NAME = 16
+"""Bytes of the name of a compression"""
+
+OF_CHUNK, LAST_KIND = 0x06, 0x0F
+"""Kinds of records"""
 
 FOOTER = struct.Struct('<BQQQI')
 """Kind and length of the last record, where the summary and its offsets begin, CRC of it all"""
@@ -28,7 +43,8 @@ def mcap_records(path: Path, types: dict[str, str], damage: list[str]) -> Iterat
 
     The summary at its end says what topics there are and where the chunks of messages lie, so
     that a damaged place costs no more than its chunk. A file without a summary, as a truncated
-    one, is read from front to back, as far as its records tell where the next begins.
+    one, is read from front to back, as far as its records tell where the next begins. Of a chunk
+    that was cut the beginning counts, also where a disk that lost power left zeros for the rest.
 
     Parameters
     ----------
@@ -128,24 +144,75 @@ class _McapFile:
 
     def _front_to_back(self) -> Iterator[tuple[int, Any]]:
         """Give each record outside the summary, and where it is, up to the first broken one."""
-        self._file.seek(len(MAGIC))
-        entries = self._reader(self._file)
-        while True:
-            start = self._file.tell()
+        broken = yield from self._whole_records(self._file, len(MAGIC), self._size)
+        if broken is None:
+            return
+        chunk = self._cut_chunk(broken)
+        if chunk is None:
+            self._damage.append(f'it is truncated or damaged from byte {broken} on')
+        else:
+            yield broken, chunk
+
+    def _whole_records(
+        self, stream: IO[bytes], start: int, end: int
+    ) -> Generator[tuple[int, Any], None, int | None]:
+        """Give the records of a stream, and where they begin; return where the first broken is.
+
+        Zeros that follow a record which ends in zeros may have begun within it, so it is broken.
+        """
+        stream.seek(start)
+        entries = self._reader(stream)
+        while start < end:
             try:
+                stream.seek(start)
+                kind, length = RECORD.unpack(stream.read(RECORD.size))
+                after = start + RECORD.size + length
+                if kind == 0 or after > end:
+                    return start
+                if kind > LAST_KIND:  # of a later version, or somebody's own
+                    start = after
+                    continue
+                stream.seek(after - 1)
+                ending = stream.read(2)
+                if not any(ending) and (len(ending) > 1 or kind == OF_CHUNK):
+                    return start
+                stream.seek(start)
                 entry = next(entries)
             except Exception:
-                self._damage.append(f'it is truncated or damaged from byte {start} on')
-                return
+                return start
             if isinstance(entry, self._kinds.DataEnd):
-                return
+                return None
             yield start, entry
+            start = after
+        return start if stream is self._file else None
+
+    def _cut_chunk(self, start: int) -> Any | None:
+        """Return what there is of a chunk that was cut, without its compression."""
+        try:
+            self._file.seek(start)
+            kind, length = RECORD.unpack(self._file.read(RECORD.size))
+            begin, last, size, _, named = CHUNK.unpack(self._file.read(CHUNK.size))
+            name = self._file.read(min(named, LONGEST_NAME)).decode()
+            LENGTH.unpack(self._file.read(LENGTH.size))
+        except (struct.error, ValueError):
+            return None
+        if kind != OF_CHUNK:
+            return None
+        data = self._file.read(min(length, self._size)).rstrip(b'\0')
+        return self._kinds.Chunk(
+            compression='',
+            data=decompressed_beginning(data, name),
+            message_start_time=begin,
+            message_end_time=last,
+            uncompressed_crc=0,
+            uncompressed_size=size,
+        )
 
     def _messages_in(self, start: int, entry: Any) -> Iterator[Record]:
-        parts = [entry]
+        parts: Iterable[Any] = [entry]
         if isinstance(entry, self._kinds.Chunk):
             try:
-                parts = self._library.breakup_chunk(entry, validate_crc=True)
+                parts = self._parts(start, entry)
             except Exception as error:
                 self._passed_over(start, error)
                 return
@@ -165,6 +232,26 @@ class _McapFile:
                 *(channel.topic, kind, definition, part.log_time, part.data),
                 channel.message_encoding,
             )
+
+    def _parts(self, start: int, chunk: Any) -> Iterable[Any]:
+        """Give the records of a chunk; of one without a sum to check, up to the first broken."""
+        if chunk.uncompressed_crc:
+            parts: list[Any] = self._library.breakup_chunk(chunk, validate_crc=True)
+            return parts
+        data = decompressed_beginning(chunk.data, chunk.compression)
+        records = self._whole_records(BytesIO(data), 0, len(data))
+        parts = []
+        while True:
+            try:
+                parts.append(next(records)[1])
+            except StopIteration as end:
+                if end.value is not None or len(data) < chunk.uncompressed_size:
+                    there = sum(isinstance(part, self._kinds.Message) for part in parts)
+                    self._damage.append(
+                        f'a part at byte {start} is cut short or damaged: the first {there} '
+                        'messages of it can be read'
+                    )
+                return parts
 
     def _define(self, entry: Any) -> None:
         """Take what a record says of topics, unless that is known: the summary comes first."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,22 +11,23 @@ import numpy as np
 from ..errors import RecordingError
 from ..libraries import needed
 from ..progress import Progress, unseen
-from ..recording import Floats, Recording
+from ..session import Floats
+from .clock_like import behaves_like_clock, may_be_clock
 from .columns import find_columns
-from .table import table_recording
+from .table import Table
 from .table_options import TableOptions
 from .time_column import (
     TimeColumn,
     Times,
     times_of,
-    times_of_iso,
+    times_of_moments,
     times_of_nanoseconds,
 )
 
 
 def load_parquet(
     path: Path, options: TableOptions | None = None, progress: Progress = unseen
-) -> Recording:
+) -> Table:
     """Read a Parquet file, as `load_recording` does; a missing value is NaN.
 
     A row group that cannot be read is damage; without the file's end nothing can.
@@ -41,10 +43,14 @@ def load_parquet(
     with file:
         titles = list(file.schema_arrow.names)
         columns = find_columns(titles, options)
-        time = columns.time or _index_of_pandas(file.schema_arrow)
+        time = columns.time or _moments(file.schema_arrow, columns.others)
         places = [column.place for column in columns.numbers.values()]
-        if time is not None:
-            places += [time.place, *([] if time.nanoseconds is None else [time.nanoseconds])]
+        may_be = [
+            place
+            for place in (columns.others if time is None else ())
+            if may_be_clock(titles[place]) and _is_number(file.schema_arrow.field(place).type)
+        ]
+        places += may_be if time is None else [at for at in time.places if at != time.date]
         if columns.state is not None:
             places.append(columns.state)
         first_row = 0
@@ -79,26 +85,33 @@ def load_parquet(
             spans = values.cast(pa.duration('ns'), safe=False).cast(pa.int64()).cast(pa.float64())
             return times_of(column._replace(unit='ns'), spans.to_numpy())
         if pa.types.is_string(values.type) or pa.types.is_large_string(values.type):
-            return times_of_iso(column, [value or '' for value in values.to_pylist()])
+            return times_of_moments(column, [value or '' for value in values.to_pylist()])
         rest = None if column.nanoseconds is None else numbers(column.nanoseconds)
         return times_of(column, numbers(column.place), rest)
 
     state = None
     if columns.state is not None:
         state = [str(value or '') for value in table[titles[columns.state]].to_pylist()]
-    return table_recording(
+    return Table(
         path.name,
         columns,
         {name: numbers(column.place) * column.factor for name, column in columns.numbers.items()},
         None if time is None else times(time),
+        next((titles[place] for place in may_be if behaves_like_clock(numbers(place))), None),
         state,
         damage=damage,
     )
 
 
-def _index_of_pandas(schema: Any) -> TimeColumn | None:
-    """The index that pandas has written, if it holds moments."""
-    for place, field in enumerate(schema):
-        if field.name == '__index_level_0__' and str(field.type).startswith('timestamp'):
-            return TimeColumn(place, field.name)
-    return None
+def _moments(schema: Any, others: Sequence[int]) -> TimeColumn | None:
+    """The only column of moments, as the index that pandas has written, whatever it is called."""
+    found = [
+        TimeColumn(place, schema.field(place).name)
+        for place in others
+        if str(schema.field(place).type).startswith('timestamp')
+    ]
+    return found[0] if len(found) == 1 else None
+
+
+def _is_number(kind: Any) -> bool:
+    return str(kind).startswith(('int', 'uint', 'float', 'double', 'half'))

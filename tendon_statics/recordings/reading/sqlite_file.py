@@ -13,6 +13,7 @@ from typing import Any
 
 from ..errors import RecordingError
 from .bag_record import UNKNOWN_TYPE, Record
+from .unwritten import copy_with_others, unwritten_places
 
 WAL = '-wal'
 """Ending of the log in which SQLite keeps what has not yet come to the file itself"""
@@ -32,6 +33,8 @@ PAGE_SIZE = slice(16, 18)
 SMALLEST_PAGE, LARGEST_PAGE = 512, 65536
 """Bytes"""
 
+_ROWS = 'SELECT rowid, topic_id, timestamp, data FROM messages'
+
 
 def sqlite_records(path: Path, types: dict[str, str], damage: list[str]) -> Iterator[Record]:
     """Read the messages of an SQLite file row by row, up to where it is damaged.
@@ -49,7 +52,7 @@ def sqlite_records(path: Path, types: dict[str, str], damage: list[str]) -> Iter
         If it is no SQLite file, or has no tables of a bag.
     """
     path.open('rb').close()  # for the system's own reason, if it cannot be
-    with _opened(path) as database:
+    with _opened(path) as (database, file):
         try:
             damage.extend(_unfinished(database, path))
             # So that a file that is shorter than its header says is read all the same.
@@ -59,20 +62,28 @@ def sqlite_records(path: Path, types: dict[str, str], damage: list[str]) -> Iter
                 for key, name, kind in database.execute('SELECT id, name, type FROM topics')
             }
             definitions = _definitions(database)
-            rows = database.execute('SELECT topic_id, timestamp, data FROM messages')
+            rows = database.execute(_ROWS)
         except (sqlite3.Error, MemoryError) as error:
             raise RecordingError(f'it cannot be read as a bag: {error}') from None
         types.update((name, kind) for name, kind in topics.values() if name)
-        unknown = 0
-        try:
-            for key, log_time, data in rows:
-                name, kind = topics.get(key, ('', ''))
-                if name:
-                    yield Record(name, kind, definitions.get(kind, ''), log_time, data)
-                else:
-                    unknown += 1
-        except (sqlite3.Error, MemoryError) as error:
-            damage.append(f'it is truncated or damaged ({error})')
+        unknown = unwritten = 0
+        with _otherwise(database, file) as other:
+            try:
+                for row in rows:
+                    _, key, log_time, data = row
+                    name, kind = topics.get(key, ('', ''))
+                    if other is not None and not _is_in(other, row):
+                        unwritten += 1
+                    elif name:
+                        yield Record(name, kind, definitions.get(kind, ''), log_time, data)
+                    else:
+                        unknown += 1
+            except (sqlite3.Error, MemoryError) as error:
+                damage.append(f'it is truncated or damaged ({error})')
+        if unwritten:
+            damage.append(
+                f'{unwritten} messages are lost where it holds zeros in place of what was recorded'
+            )
         if unknown:
             damage.append(f'{unknown} messages are of topics that it does not define')
         if not damage:
@@ -80,22 +91,30 @@ def sqlite_records(path: Path, types: dict[str, str], damage: list[str]) -> Iter
 
 
 @contextmanager
-def _opened(path: Path) -> Iterator[sqlite3.Connection]:
-    """Open a file without changing it or leaving anything beside it."""
-    with _readable(path) as uri:
-        try:
-            database = sqlite3.connect(uri, uri=True)
-        except sqlite3.Error as error:
-            raise RecordingError(f'it cannot be read as a bag: {error}') from None
-        # Damaged text need not be UTF-8, and what should be a blob may have become a text.
-        database.text_factory = bytes
-        with closing(database):
-            yield database
+def _opened(path: Path) -> Iterator[tuple[sqlite3.Connection, Path]]:
+    """Open a file, or a copy of it, without changing it or leaving anything beside it."""
+    with _readable(path) as file:
+        # A copy may be written to, by what is in the journals.
+        mode = '?mode=ro&immutable=1' if file is path else ''
+        with _connected(f'{file.absolute().as_uri()}{mode}') as database:
+            yield database, file
 
 
 @contextmanager
-def _readable(path: Path) -> Iterator[str]:
-    """Give the URI of a file, or of a copy that is not as it is.
+def _connected(uri: str) -> Iterator[sqlite3.Connection]:
+    try:
+        database = sqlite3.connect(uri, uri=True)
+    except sqlite3.Error as error:
+        raise RecordingError(f'it cannot be read as a bag: {error}') from None
+    # Damaged text need not be UTF-8, and what should be a blob may have become a text.
+    database.text_factory = bytes
+    with closing(database):
+        yield database
+
+
+@contextmanager
+def _readable(path: Path) -> Iterator[Path]:
+    """Give the path of a file, or of a copy that is not as it is.
 
     Into a copy SQLite may write the journals. And a copy can do without a page at the end that is
     torn: SQLite would read what is missing of it as zeros, which would come out as tensions.
@@ -103,14 +122,14 @@ def _readable(path: Path) -> Iterator[str]:
     endings = [ending for ending in (WAL, JOURNAL) if _content(path, ending)]
     torn = _torn_bytes(path)
     if not endings and not torn:
-        yield f'{path.absolute().as_uri()}?mode=ro&immutable=1'
+        yield path
         return
     with tempfile.TemporaryDirectory(prefix='tendon-statics-') as folder:
         copy = Path(folder, path.name)
         for ending in ('', *endings):
             shutil.copyfile(f'{path}{ending}', f'{copy}{ending}')
         os.truncate(copy, copy.stat().st_size - torn)
-        yield copy.as_uri()
+        yield copy
 
 
 def _torn_bytes(path: Path) -> int:
@@ -122,6 +141,37 @@ def _torn_bytes(path: Path) -> int:
     if page_size & (page_size - 1) or not SMALLEST_PAGE <= page_size <= LARGEST_PAGE:
         return 0  # SQLite will say what it is.
     return path.stat().st_size % page_size
+
+
+@contextmanager
+def _otherwise(database: sqlite3.Connection, file: Path) -> Iterator[sqlite3.Connection | None]:
+    """Open the file with something else in place of zeros that nobody has written.
+
+    A message that is another one there was not recorded as it stands. None: there are no such
+    zeros.
+    """
+    (page_size,), (pages,) = (
+        database.execute(f'PRAGMA {name}').fetchone() for name in ('page_size', 'page_count')
+    )
+    places = unwritten_places(file, page_size, pages)
+    if not places:
+        yield None
+        return
+    with tempfile.TemporaryDirectory(prefix='tendon-statics-') as folder:
+        copy = Path(folder, file.name)
+        copy_with_others(file, copy, places)
+        with _connected(f'{copy.as_uri()}?mode=ro&immutable=1') as other:
+            other.execute('PRAGMA writable_schema = ON')
+            yield other
+
+
+def _is_in(database: sqlite3.Connection, row: tuple[Any, ...]) -> bool:
+    """Whether a database holds a message as it is in another."""
+    try:
+        found = database.execute(f'{_ROWS} WHERE rowid = ?', row[:1]).fetchone()
+    except (sqlite3.Error, MemoryError):
+        return False
+    return bool(found == row)
 
 
 def _unfinished(database: sqlite3.Connection, path: Path) -> Iterator[str]:

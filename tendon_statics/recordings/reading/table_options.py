@@ -8,17 +8,10 @@ import math
 from collections.abc import Mapping
 
 from ..errors import RecordingError
-from ..recording import QUANTITIES
-from .units import UNITS
+from .units import OF_UNIT, Quantities
 
 SEPARATORS = {'comma': ',', 'semicolon': ';', 'tab': '\t', 'bar': '|', 'space': ' '}
 """Name of a separator, as an option has it → character; one space stands for any number"""
-
-PAIRS = {'tension': ('tension_l', 'tension_s'), 'tip_force': ('tip_force_x', 'tip_force_z')}
-"""Name for two quantities of one unit"""
-
-NAMED = (*QUANTITIES, 'state')
-"""What a column may be"""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -32,7 +25,7 @@ class TableOptions:
     columns: Mapping[str, str] = dataclasses.field(default_factory=dict)
     """Quantity → title of its column, without a unit in brackets"""
     units: Mapping[str, str] = dataclasses.field(default_factory=dict)
-    """Quantity → unit of its column; ``tension`` stands for both tensions, ``tip_force`` for both
+    """Quantity → unit of its column; ``tension`` stands for all tensions, ``tip_force`` for both
     components"""
     skip_rows: int = 0
     """Lines before the one with the titles"""
@@ -40,6 +33,8 @@ class TableOptions:
     """Of a text file, say ``latin-1``; None: UTF-8, or UTF-16 with a byte-order mark"""
     rate: float | None = None
     """Rows per second of a table without times"""
+    quantities: Quantities = OF_UNIT
+    """What its columns may be"""
 
     def __post_init__(self) -> None:
         """Check what can be checked without a table.
@@ -63,16 +58,17 @@ class TableOptions:
             raise RecordingError(f'{self.decimal!r} cannot separate both columns and decimals')
         if self.skip_rows < 0:
             raise RecordingError(f'{self.skip_rows} lines cannot be skipped')
+        known = self.quantities
         for quantity in self.columns:
-            _check_quantity(quantity, NAMED)
+            _check_quantity(quantity, (*known.kinds,))
         units = dict(self.units)
-        for both, quantities in PAIRS.items():
-            if both in units:
-                units = dict.fromkeys(quantities, units.pop(both)) | units
+        for name, quantities in known.together.items():
+            if name in units:
+                units = dict.fromkeys(quantities, units.pop(name)) | units
         object.__setattr__(self, 'units', units)
         for quantity, unit in units.items():
-            _check_quantity(quantity, (*UNITS, *PAIRS))
-            unit_factor(quantity, unit)
+            _check_quantity(quantity, (*filter(known.has_units, known.kinds), *known.together))
+            known.factor(quantity, unit)
         if self.rate is not None and not 0.0 < self.rate < math.inf:
             raise RecordingError(
                 f'the rate is {self.rate!r} Hz; a finite number above 0 is needed'
@@ -82,22 +78,6 @@ class TableOptions:
                 codecs.lookup(self.encoding)
             except LookupError:
                 raise RecordingError(f'there is no encoding {self.encoding!r}') from None
-
-
-def unit_factor(quantity: str, unit: str) -> float:
-    """Return what one of a unit is in SI.
-
-    Raises
-    ------
-    RecordingError
-        If it is no unit of that quantity.
-    """
-    units = UNITS[quantity]
-    if unit not in units:
-        raise RecordingError(
-            f'the unit of {quantity} is {unit!r}, which is not known; there are {", ".join(units)}'
-        )
-    return units[unit]
 
 
 def _check_quantity(quantity: str, allowed: tuple[str, ...]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import dataclasses
+import itertools
 import re
 from collections.abc import Iterator, Sequence
 
@@ -11,8 +12,8 @@ from ..errors import RecordingError
 from .columns import find_columns
 from .labview import LABVIEW, labview_form
 from .table_options import SEPARATORS, TableOptions
-from .text_lines import Line, TextForm, separator_name, split
-from .units import UNITS, split_title
+from .text_lines import DECIMAL_COMMA, Line, TextForm, no_utf_8, separator_name, split
+from .units import Quantities, split_title
 
 COMMENTS = ('#', '%')
 """How a line begins that is ignored, unless it has the titles"""
@@ -20,8 +21,8 @@ COMMENTS = ('#', '%')
 LOOKED_AT = 100
 """Rows that tell how numbers are written"""
 
+_SEPARATORS_ALONE = b' \t,;|"\r\n'
 _EXCEL_SEPARATOR = re.compile(rb'"?sep=(.)"?')
-_DECIMAL_COMMA = re.compile(r'[-+]?\d*,\d+(?:[eE][-+]?\d+)?')
 _DECIMAL_POINT = re.compile(r'[-+]?\d*\.\d*(?:[eE][-+]?\d+)?')
 
 
@@ -34,7 +35,8 @@ def recognise(content: bytes, options: TableOptions) -> TextForm:
         If it has no titles with tensions, or can be read in more than one way; the text names the
         option that decides.
     """
-    lines = [line for line in _lines(content) if line[0] > options.skip_rows and line[1].strip()]
+    every = list(_lines(content))
+    lines = [line for line in every if line[0] > options.skip_rows and line[1].strip()]
     if lines and lines[0][1].startswith(LABVIEW.encode()):
         return labview_form(lines, options)
     told = _EXCEL_SEPARATOR.fullmatch(lines[0][1].strip()) if lines else None
@@ -42,12 +44,12 @@ def recognise(content: bytes, options: TableOptions) -> TextForm:
         lines = lines[1:]
         options = dataclasses.replace(options, separator=told[1].decode())
     comments = [line for line in lines if _is_comment(line[1])]
-    rows = [line for line in lines if not _is_comment(line[1])]
-    separator, titles, at = _titles(comments, rows, options)
+    rows = _without_empty_ends([line for line in lines if not _is_comment(line[1])])
+    separator, titles, at = _titles(comments, rows, options, every[: options.skip_rows])
     notes = []
     if separator != ',':
         notes.append(f'columns are separated by {separator_name(separator)}')
-    titles, rows, said = _with_units_row(titles, rows[at:], separator)
+    titles, rows, said = _with_units_row(titles, rows[at:], separator, options.quantities)
     if rows and _ends_with_separator(rows[0][1], separator, len(titles)):
         titles = [*titles, '']
     decimal = _decimal(rows, separator, titles, options)
@@ -58,10 +60,7 @@ def recognise(content: bytes, options: TableOptions) -> TextForm:
 
 def _ends_with_separator(line: bytes, separator: str, count: int) -> bool:
     """Whether a row has an empty field more than there are titles, as data loggers write it."""
-    try:
-        fields = split(line, separator)
-    except (ValueError, csv.Error):
-        return False
+    fields = _fields(line, separator)
     return len(fields) == count + 1 and fields[-1] == ''
 
 
@@ -73,8 +72,17 @@ def _is_comment(line: bytes) -> bool:
     return line.lstrip().startswith(tuple(mark.encode() for mark in COMMENTS))
 
 
+def _without_empty_ends(rows: list[Line]) -> list[Line]:
+    """Leave out rows before the titles and at the end in which there are separators alone."""
+    full = [place for place, (_, line) in enumerate(rows) if line.strip(_SEPARATORS_ALONE)]
+    return rows[full[0] : full[-1] + 1] if full else []
+
+
 def _titles(
-    comments: Sequence[Line], rows: Sequence[Line], options: TableOptions
+    comments: Sequence[Line],
+    rows: Sequence[Line],
+    options: TableOptions,
+    skipped: Sequence[Line],
 ) -> tuple[str, list[str], int]:
     """Find separator and titles; return them with the number of rows that they take.
 
@@ -90,27 +98,64 @@ def _titles(
     before = [line for line in comments if not rows or line[0] < rows[0][0]]
     candidates += [(line, 0) for line in before[-1:]]
     separators = [options.separator] if options.separator else [*SEPARATORS.values()]
-    failures: list[tuple[int, RecordingError]] = []
+    failures: list[tuple[tuple[bool, int], RecordingError]] = []
     for (number, line), taken in candidates:
         for separator in separators:
             titles = _header(number, line, separator, as_comment=not taken)
             try:
                 find_columns(titles, options)
             except RecordingError as error:
-                failures.append((sum(map(_is_title, titles)), error))
+                count = sum(map(_is_title, titles))
+                # Blanks stand within titles too, so they separate columns where nothing else does.
+                failures.append(((separator != ' ' and count > 1, count), error))
             else:
                 return separator, titles, taken
     if not failures:
         find_columns([], options)
-    for number, line in rows[1:LOOKED_AT]:
-        if any(_has_tensions(number, line, separator, options) for separator in separators):
-            raise RecordingError(
-                f'{failures[0][1]}; line {number} has them: --skip-rows {number - 1}'
-            )
     # What is wrong with the tensions that were found, rather than that there are none; else what
     # there is by the separator that makes most titles.
     of_found = [error for _, error in failures if 'no column' not in str(error)]
-    raise of_found[0] if of_found else max(failures, key=lambda failure: failure[0])[1]
+    if of_found:
+        raise of_found[0]
+    raise (
+        _elsewhere(rows, skipped, separators, options)
+        or max(failures, key=lambda failure: failure[0])[1]
+    )
+
+
+def _elsewhere(
+    rows: Sequence[Line],
+    skipped: Sequence[Line],
+    separators: Sequence[str],
+    options: TableOptions,
+) -> RecordingError | None:
+    """Say in which line the titles stand, if that is not the first."""
+    first = f'line {rows[0][0]}, the first, has no titles of tensions' if rows else ''
+    if skipped:
+        first += f' (--skip-rows {options.skip_rows})'
+    for number, line in (*skipped[-LOOKED_AT:], *rows[1:LOOKED_AT]):
+        if any(_has_tensions(number, line, separator, options) for separator in separators):
+            return RecordingError(f'{first}; line {number} has them: --skip-rows {number - 1}')
+    for titled, numbered in itertools.pairwise(rows[:LOOKED_AT]):
+        for separator in sorted(separators, key=' '.__eq__):
+            titles = _fields(titled[1], separator)
+            fields = _fields(numbered[1], separator)
+            if len(titles) != len(fields) or len(fields) < 2 or any(map(_is_title, fields)):
+                continue
+            if titled is rows[0] or not all(map(_is_title, titles)):
+                return None
+            return RecordingError(
+                f'{first}; line {titled[0]} looks like the titles, {", ".join(titles)}: '
+                f'--skip-rows {titled[0] - 1} --columns tension_l=TITLE,tension_s=TITLE'
+            )
+    return None
+
+
+def _fields(line: bytes, separator: str) -> list[str]:
+    try:
+        return split(line, separator)
+    except (ValueError, csv.Error):
+        return []
 
 
 def _is_title(text: str) -> bool:
@@ -133,10 +178,9 @@ def _header(number: int, line: bytes, separator: str, *, as_comment: bool) -> li
     try:
         titles = split(line, separator)
     except UnicodeDecodeError as error:
-        byte = line[error.start]
         raise RecordingError(
-            f'it is not a text file in UTF-8 whose first line names columns: line {number} has '
-            f'the byte 0x{byte:02x}; if it is Latin-1, --encoding latin-1 reads it'
+            'it is not a text file in UTF-8 whose first line names columns: in line '
+            f'{number} {no_utf_8(error)}'
         ) from None
     except (ValueError, csv.Error):
         raise RecordingError(
@@ -149,7 +193,7 @@ def _header(number: int, line: bytes, separator: str, *, as_comment: bool) -> li
 
 
 def _with_units_row(
-    titles: list[str], rows: list[Line], separator: str
+    titles: list[str], rows: list[Line], separator: str, quantities: Quantities
 ) -> tuple[list[str], list[Line], list[str]]:
     """Take a row of units below the titles into these."""
     try:
@@ -158,14 +202,14 @@ def _with_units_row(
         return titles, rows, []
     names = [split_title(title) for title in titles]
     known = [
-        unit in UNITS[name] if name in UNITS else True
+        unit in quantities.kinds[name].units if quantities.has_units(name) else True
         for (name, _), unit in zip(names, units, strict=False)
     ]
     numbers = any(field.replace('.', '').replace(',', '').strip('-+').isdigit() for field in units)
     if len(units) != len(titles) or numbers or not all(known) or not any(units):
         return titles, rows, []
     with_units = [
-        f'{name} [{unit}]' if name in UNITS and given is None else title
+        f'{name} [{unit}]' if quantities.has_units(name) and given is None else title
         for title, (name, given), unit in zip(titles, names, units, strict=True)
     ]
     return with_units, rows[1:], [f'units: those of line {rows[0][0]}']
@@ -194,13 +238,10 @@ def _decimal(
         if separator != ',' and b',' not in line and b'.' not in line:
             continue  # whole numbers, which tell nothing
         looked_at += 1
-        try:
-            fields = split(line, separator)
-        except (ValueError, csv.Error):
-            continue
+        fields = _fields(line, separator)
         longer += len(fields) == 2 * len(titles)
         values = [fields[place] for place in places if place < len(fields)]
-        with_comma += any(_DECIMAL_COMMA.fullmatch(value) is not None for value in values)
+        with_comma += any(DECIMAL_COMMA.fullmatch(value) is not None for value in values)
         with_point += any(_DECIMAL_POINT.fullmatch(value) is not None for value in values)
     if separator == ',' and longer and longer == looked_at:
         raise RecordingError(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import csv
+import re
 from typing import NamedTuple
 
 from ..errors import RecordingError
@@ -11,6 +12,10 @@ from .table_options import SEPARATORS, TableOptions
 
 Line = tuple[int, bytes]
 """Number in the file, from 1, and content with its end"""
+
+
+DECIMAL_COMMA = re.compile(r'[-+]?\d*,\d+(?:[eE][-+]?\d+)?')
+"""A number whose decimals a comma separates"""
 
 
 class TextForm(NamedTuple):
@@ -70,6 +75,14 @@ def split(line: bytes, separator: str) -> list[str]:
     else:
         fields = text.split(separator)
     return [field.strip() for field in fields]
+
+
+def no_utf_8(error: UnicodeDecodeError) -> str:
+    """Say why a line is no text in UTF-8, and what may read it."""
+    return (
+        f'it has the byte 0x{error.object[error.start]:02x}; if it is Latin-1, --encoding latin-1 '
+        'reads it'
+    )
 
 
 def separator_name(separator: str) -> str:

@@ -6,6 +6,7 @@ import dataclasses
 import math
 from collections.abc import Sequence
 
+from ...estimation.settings import Settings
 from ...files.cable_parameters import TENSION_SOURCES
 from ..errors import RecordingError
 from .clock import CLOCKS
@@ -53,13 +54,18 @@ class BagTopics:
     max_skew: float = 0.02
     """s by which a message may be apart from the tensions that it is taken to belong to"""
     tension_skew: float | None = None
-    """s by which the two tensions of a pair may be apart; None: `max_skew`"""
+    """s by which the two tensions of a pair may be apart; None: as the estimator has it"""
     clock: str = 'auto'
     """One of `CLOCKS`"""
     tension_source: str | None = None
     """One of `TENSION_SOURCES`: which type the tensions have; None: any that can be read"""
     interface: str = 'effort'
     """Of the cables in a ``DynamicJointState``"""
+
+    @property
+    def pair_skew(self) -> float:
+        """How far apart in s the two tensions of a pair may be."""
+        return Settings.max_skew if self.tension_skew is None else self.tension_skew
 
     def __post_init__(self) -> None:
         """Check what can be checked without a bag.

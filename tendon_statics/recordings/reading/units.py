@@ -2,38 +2,178 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import re
+from collections.abc import Mapping
+from functools import cached_property
+from typing import NamedTuple
 
+from ...physics.arm import Arm
 from ..errors import RecordingError
+from ..session import OF_LOAD
+from .time_titles import time_unit
 
-_FORCE = {'N': 1.0, 'mN': 1e-3, 'kN': 1e3, 'gf': 9.80665e-3, 'kgf': 9.80665}
-_ANGLE = {'rad': 1.0, 'mrad': 1e-3, 'deg': math.radians(1.0), '°': math.radians(1.0)}
-UNITS = {
-    'time': {'s': 1.0, 'ms': 1e-3, 'us': 1e-6, 'ns': 1e-9},
-    'tension_l': _FORCE,
-    'tension_s': _FORCE,
-    'bend_angle': _ANGLE,
-    'pressure': {'Pa': 1.0, 'kPa': 1e3, 'MPa': 1e6},
-    'base_tilt': _ANGLE,
-    'base_roll': _ANGLE,
-    'tip_force_x': _FORCE,
-    'tip_force_z': _FORCE,
-}
-"""Quantity → unit → what one of it is in SI, which comes first and needs no mention"""
 
-_FOREIGN_FORCE = 'newton newtons g kg lb lbs lbf oz ozf'
-_FOREIGN_ANGLE = 'degree degrees radian radians milliradians'
-_FOREIGN_UNITS = {
-    'time': 'sec secs second seconds msec millis milliseconds usec micros microseconds nsec nanos '
-    'nanoseconds minutes hours',
-    **dict.fromkeys(('tension_l', 'tension_s', 'tip_force_x', 'tip_force_z'), _FOREIGN_FORCE),
-    **dict.fromkeys(('bend_angle', 'base_tilt', 'base_roll'), _FOREIGN_ANGLE),
-    'pressure': 'hPa pascal pascals kilopascals megapascals bar mbar psi atm torr mmHg',
-}
-"""Quantity → other names of units, which are not read, but are meant for one where they stand"""
+class Kind(NamedTuple):
+    """What numbers of a kind may be in."""
+
+    units: Mapping[str, float]
+    """Unit → what one of it is in SI, which comes first and needs no mention"""
+    foreign: str
+    """Other names of units, which are not read, but are meant for one where they stand"""
+
+
+FORCE = Kind(
+    {'N': 1.0, 'mN': 1e-3, 'kN': 1e3, 'gf': 9.80665e-3, 'kgf': 9.80665},
+    'newton newtons g kg lb lbs lbf oz ozf',
+)
+ANGLE = Kind(
+    {'rad': 1.0, 'mrad': 1e-3, 'deg': math.radians(1.0), '°': math.radians(1.0)},
+    'degree degrees radian radians milliradians',
+)
+TIME = Kind(
+    {'s': 1.0, 'ms': 1e-3, 'us': 1e-6, 'ns': 1e-9, 'min': 60.0, 'h': 3600.0, 'd': 86400.0}, ''
+)
+PRESSURE = Kind(
+    {'Pa': 1.0, 'kPa': 1e3, 'MPa': 1e6},
+    'hPa pascal pascals kilopascals megapascals bar mbar psi atm torr mmHg',
+)
+TEXT = Kind({}, '')
+"""That of words"""
 
 _COLUMN = re.compile(r'(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?')
+
+_LOAD = dict(zip(OF_LOAD, (ANGLE, ANGLE, FORCE, FORCE), strict=True))
+
+
+@dataclasses.dataclass(frozen=True)
+class Quantities:
+    """What the columns of a table may be."""
+
+    kinds: Mapping[str, Kind]
+    """Quantity → of what kind it is"""
+    required: tuple[str, ...]
+    """Those without which there is no sample: the tensions"""
+    readings: tuple[str, ...]
+    """Columns of a replay: what was recorded, where a gain and bias made tensions in N of it"""
+    together: Mapping[str, tuple[str, ...]]
+    """Name for several quantities of one unit"""
+
+    def parse(self, title: str) -> tuple[str, float]:
+        """Split a column's title, ``tension_l`` or ``tension_l [mN]``, into name and SI factor.
+
+        A column of something else has the factor 1.
+
+        Raises
+        ------
+        RecordingError
+            If the unit is not one of that quantity, or the title is meant for a quantity but
+            written otherwise, so that it would be overlooked.
+        """
+        title = title.strip()
+        name, unit = split_title(title)
+        if self.has_units(name):
+            return name, 1.0 if unit is None else self.factor(name, unit)
+        for quantity, pattern in self._miswritten.items():
+            if name != quantity and pattern.fullmatch(title):
+                raise RecordingError(
+                    f'there is a column {title!r}, which would be overlooked: write '
+                    f'{self._as_to_write(quantity, title)}; what is something else needs another '
+                    'name'
+                )
+        return name, 1.0
+
+    def has_units(self, name: str) -> bool:
+        """Whether it is a quantity whose numbers are in some unit."""
+        return name in self.kinds and self.kinds[name] is not TEXT
+
+    def factor(self, quantity: str, unit: str) -> float:
+        """Return what one of a unit is in SI.
+
+        Raises
+        ------
+        RecordingError
+            If it is no unit of that quantity.
+        """
+        units, is_time = self.kinds[quantity].units, self.kinds[quantity] is TIME
+        if is_time:
+            unit = time_unit(unit) or unit
+        if unit not in units:
+            raise RecordingError(
+                f'the unit of {quantity} is {unit!r}, which is not known; there are '
+                + ', '.join(units)
+                + (' (--columns time=TITLE names another column)' if is_time else '')
+            )
+        return units[unit]
+
+    def _as_to_write(self, quantity: str, title: str) -> str:
+        units = [*self.kinds[quantity].units]
+        if not units:
+            return quantity
+        meant = [unit for unit in units if re.search(rf'[\W_]{unit}\b', title)]
+        return (
+            f'{quantity} or, if it is not in {units[0]}, its unit in brackets, '
+            f'{quantity} [{(meant or units[1:])[0]}] (there are {", ".join(units)})'
+        )
+
+    @cached_property
+    def _miswritten(self) -> dict[str, re.Pattern[str]]:
+        """By quantity, but the time, which is read by many titles."""
+        return {
+            name: _miswritten(name, kind) for name, kind in self.kinds.items() if kind is not TIME
+        }
+
+
+OF_UNIT = Quantities(
+    kinds={
+        'time': TIME,
+        'tension_l': FORCE,
+        'tension_s': FORCE,
+        'bend_angle': ANGLE,
+        'pressure': PRESSURE,
+        **_LOAD,
+        'state': TEXT,
+    },
+    required=('tension_l', 'tension_s'),
+    readings=('reading_l', 'reading_s'),
+    together={
+        'tension': ('tension_l', 'tension_s'),
+        'tip_force': ('tip_force_x', 'tip_force_z'),
+    },
+)
+"""What a table of a single unit may hold"""
+
+
+def of_arm(arm: Arm) -> Quantities:
+    """Return what a table of an arm may hold: a tension for each cable, by its name.
+
+    And the measured bend angles, ``bend_angle_1`` that of the joint at the base.
+
+    Raises
+    ------
+    RecordingError
+        If a cable is called as another quantity is.
+    """
+    cables = arm.cable_names
+    angles = tuple(f'bend_angle_{number}' for number in range(1, len(arm.units) + 1))
+    others = {'time': TIME, **dict.fromkeys(angles, ANGLE), **_LOAD}
+    for cable in cables:
+        if cable in others:
+            raise RecordingError(
+                f'a cable of the arm is called {cable}, which in a table is something else; '
+                'rename it'
+            )
+    return Quantities(
+        kinds={**dict.fromkeys(cables, FORCE), **others},
+        required=cables,
+        readings=tuple(f'reading_{cable}' for cable in cables),
+        together={
+            'tension': cables,
+            'bend_angle': angles,
+            'tip_force': ('tip_force_x', 'tip_force_z'),
+        },
+    )
 
 
 def split_title(title: str) -> tuple[str, str | None]:
@@ -42,57 +182,12 @@ def split_title(title: str) -> tuple[str, str | None]:
     return (title.strip(), None) if match is None else (match['name'], match['unit'])
 
 
-def parse_column(title: str) -> tuple[str, float]:
-    """Split a column's title, ``tension_l`` or ``tension_l [mN]``, into name and SI factor.
-
-    A column of something else has the factor 1.
-
-    Raises
-    ------
-    RecordingError
-        If the unit is not one of that quantity, or the title is meant for a quantity but written
-        otherwise, so that it would be overlooked.
-    """
-    title = title.strip()
-    name, unit = split_title(title)
-    if name in UNITS:
-        units = UNITS[name]
-        if unit is None:
-            return name, 1.0
-        if unit not in units:
-            raise RecordingError(
-                f'the unit of {name} is {unit!r}, which is not known; there are {", ".join(units)}'
-            )
-        return name, units[unit]
-    for quantity, pattern in _MISWRITTEN.items():
-        if name != quantity and pattern.fullmatch(title):
-            raise RecordingError(
-                f'there is a column {title!r}, which would be overlooked: write '
-                f'{_as_to_write(quantity, title)}; what is something else needs another name'
-            )
-    return name, 1.0
-
-
-def _as_to_write(quantity: str, title: str) -> str:
-    units = [*UNITS.get(quantity, ())]
-    if not units:
-        return quantity
-    meant = [unit for unit in units if re.search(rf'[\W_]{unit}\b', title)]
-    return (
-        f'{quantity} or, if it is not in {units[0]}, its unit in brackets, '
-        f'{quantity} [{(meant or units[1:])[0]}] (there are {", ".join(units)})'
-    )
-
-
-def _miswritten(quantity: str) -> re.Pattern[str]:
+def _miswritten(quantity: str, kind: Kind) -> re.Pattern[str]:
     """What is meant for a quantity: its name in any writing, alone or with something like a unit.
 
     That is a unit after a separator, or anything in brackets of any kind.
     """
-    name = r'[\s_-]*'.join(quantity.split('_'))
-    units = '|'.join([*UNITS.get(quantity, ()), *_FOREIGN_UNITS.get(quantity, '').split()])
-    unit = rf'[\W_]+(?:in[\W_]+)?(?:{units})[\W_]*'
+    name = r'[\s_-]*'.join(map(re.escape, quantity.split('_')))
+    known = '|'.join([*kind.units, *kind.foreign.split()])
+    unit = rf'[\W_]+(?:in[\W_]+)?(?:{known})[\W_]*'
     return re.compile(rf'{name}(?:|\W*[(\[{{<].*|\W*°.*|{unit})', re.IGNORECASE)
-
-
-_MISWRITTEN = {quantity: _miswritten(quantity) for quantity in (*UNITS, 'state')}

@@ -13,8 +13,10 @@ from ...files.output_file import OutputError, output_file
 from ..libraries import needed
 from ..progress import Progress, unseen
 from ..reading.bag_beside import DEFAULT_TOPICS
-from ..reading.bag_values import ARRAY, NUMBER, TEXT
-from ..recording import Floats, Recording
+from ..reading.bag_record import TEXT
+from ..reading.bag_values import ARRAY, NUMBER
+from ..recording import Recording
+from ..session import Floats
 from .result import Replay
 
 BOOLEAN = 'std_msgs/msg/Bool'

@@ -8,18 +8,19 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from ...estimation.estimate import Estimate, KnownLoad, Remark
+from ...estimation.estimate import Estimate, Remark
 from ...estimation.regimes import INVALID
 from ...estimation.settings import Settings
 from ...estimation.unit_estimator import UnitEstimator
 from ...physics import JointDesign, Load, Regime, TensionError
 from ...physics.admissible import check_bend_angle
 from ...physics.batch import solve_batch
-from ...tensions.reason import ReadingError, Reason
+from ...tensions.reason import Reason
 from ..errors import RecordingError
 from ..progress import Progress, unseen
-from ..recording import Floats, Recording
+from ..recording import Recording
 from ..samples import Samples
+from ..session import Floats
 from .result import VALID, Replay
 
 CHUNK = 20_000
@@ -86,11 +87,14 @@ def replay(
     if is_filtered and recording.time is None:
         raise RecordingError(
             f'{recording.name}: filtering needs the time of each sample, which is not recorded'
+            + (f': {recording.unknown_times}' if recording.unknown_times else '')
         )
     # The derivatives by the design, on which its part in a deviation rests, are those of one pair.
     is_batch = not unit.remembers and settings.design_uncertainty is None
     parts = [
-        _solved(samples, loads, start) if is_batch else _followed(unit, samples, loads, start)
+        _solved(design, samples, loads, start)
+        if is_batch
+        else _followed(unit, samples, loads, start)
         for start in starts
     ]
     regime_names, numbers, assured = zip(*parts, strict=True)
@@ -140,12 +144,12 @@ _Part = tuple[NDArray[np.str_], Floats, NDArray[np.bool_]]
 """Regimes, the numbers of each sample in rows, and whether the angle is assured"""
 
 
-def _solved(samples: Samples, loads: Load | list[Load], start: int) -> _Part:
+def _solved(design: JointDesign, samples: Samples, loads: Load | list[Load], start: int) -> _Part:
     settings, part = samples.settings, _part(samples, start)
     pairs = np.array([samples.judged(place) for place in part])
     tension_l, tension_s = pairs.reshape(-1, 2).T
     of_part = loads if isinstance(loads, Load) else loads[part.start : part.stop]
-    answers = solve_batch(settings.design, tension_l, tension_s, of_part)
+    answers = solve_batch(design, tension_l, tension_s, of_part)
     numbers = np.stack(
         [
             answers.bend_angle,
@@ -165,16 +169,8 @@ def _followed(
     regimes, assured = [], []
     rows: list[list[float | None]] = []
     for place in _part(samples, start):
-        known = KnownLoad(loads if isinstance(loads, Load) else loads[place])
-        now, measured = samples.times[place]
-        fault = samples.faults[place]
-        try:
-            if fault:
-                unit.drop(Reason(fault), fault)
-                raise ReadingError(Reason(fault), fault)
-            estimate = unit.take_tensions(*samples.tensions[place], known, now, measured)
-        except ReadingError as error:
-            samples.faults[place] = error.reason.value
+        estimate = samples.followed(unit, loads, place)
+        if estimate is None:
             regimes.append(INVALID)
             rows.append([math.nan] * len(_NUMBERS))
             assured.append(False)

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...physics import Load, Regime
-from ..reading.columns import READINGS
-from ..recording import OF_LOAD, Floats, Recording
+from ..reading.units import OF_UNIT
+from ..recording import Recording
+from ..session import OF_LOAD, Floats
 
 VALID = 'valid'
 
@@ -66,7 +67,7 @@ class Replay(NamedTuple):
                 ('time', recorded.time),
                 ('tension_l', recorded.tension_l),
                 ('tension_s', recorded.tension_s),
-                *zip(READINGS, recorded.readings or (None, None), strict=True),
+                *zip(OF_UNIT.readings, recorded.readings or (None, None), strict=True),
                 ('bend_angle', recorded.bend_angle),
                 ('pressure', recorded.pressure),
                 *((name, getattr(recorded, name)) for name in OF_LOAD),

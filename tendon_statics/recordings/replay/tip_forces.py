@@ -19,8 +19,9 @@ from ...physics.load import push_along
 from ...physics.tip_force import may_be_at_stop
 from ..errors import RecordingError
 from ..progress import Progress, unseen
-from ..recording import Floats, Recording
+from ..recording import Recording
 from ..samples import usable
+from ..session import Floats
 
 BEYOND = 5.0
 """Deviations by which noise may put a measured angle beyond a stop"""

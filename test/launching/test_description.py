@@ -1,4 +1,4 @@
-"""`unit_description`: the URDF for robot_state_publisher, with the names of the estimator."""
+"""`unit_description` and `arm_description`: URDF with the names of the nodes."""
 
 import math
 import sys
@@ -8,8 +8,8 @@ import pytest
 
 from tendon_statics import default_design_path
 from tendon_statics.launching.base_turn import BaseTurnError, load_base_turn
+from tendon_statics.launching.description import DescriptionError, unit_description
 from tendon_statics.launching.joint_names import JointNames
-from tendon_statics.launching.unit_description import DescriptionError, unit_description
 
 
 def test_it_has_the_names_that_it_is_given(tmp_path):
@@ -51,6 +51,7 @@ def test_a_relative_path_starts_from_where_the_user_is(tmp_path, monkeypatch):
 
 def test_a_missing_xacro_is_one_line_that_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, 'xacro', None)
+    monkeypatch.delenv('ROS_DISTRO', raising=False)
     with pytest.raises(DescriptionError) as raised:
         unit_description(default_design_path(), JointNames())
     assert 'xacro, which makes the description' in str(raised.value)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from builtin_interfaces.msg import Time
+from .reason import Fault, Reason
 
-from ...tensions.pairing import NANOSECONDS
-from ...tensions.reason import Fault, Reason
+NANOSECONDS = 1_000_000_000
+"""In a second"""
 
 RISING = 3
 """Stamps in a row"""
@@ -34,9 +34,9 @@ class StampOrder:
         """Whether it has taken a stamp."""
         return self._newest is not None
 
-    def objection(self, stamp: Time) -> Fault | None:
-        """Return what is against this stamp, None if it is in order."""
-        time, newest = nanoseconds(stamp), self._newest
+    def objection(self, time: int) -> Fault | None:
+        """Return what is against a stamp in ns, None if it is in order."""
+        newest = self._newest
         self._rising = self._rising + 1 if time > self._before else 1
         self._before = time
         if newest is None or time > newest or (self.is_loose and self._rising >= RISING):
@@ -44,11 +44,6 @@ class StampOrder:
             return None
         text = f'the stamp is {seconds(time)} s, after {seconds(newest)} s'
         return (Reason.REPEATED_STAMP if time == newest else Reason.OUT_OF_ORDER), text
-
-
-def nanoseconds(stamp: Time) -> int:
-    """Return a stamp as nanoseconds since its clock's start."""
-    return stamp.sec * NANOSECONDS + stamp.nanosec
 
 
 def seconds(time: int) -> str:

@@ -1,0 +1,143 @@
+"""What the verbs that follow an arm through a recording have in common."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ..estimation.arm_settings import ArmSettings
+from ..files.arm_file import load_arm
+from ..files.arm_parameters import ARM_ESTIMATIONS
+from ..files.arm_settings import arm_settings_from, joint_names
+from ..files.parameter_file import node_parameters, read_parameters
+from ..files.parameter_form import ParameterFileError
+from ..files.parameter_kinds import SettingError
+from ..physics import ArmError, Load
+from ..physics.deviations import TENSION_STDDEV
+from ..recordings.arm_recording import ArmRecording
+from ..recordings.hints import arm_hints
+from ..recordings.reading.load import ENDINGS, load_arm_recording
+from ..recordings.reading.units import of_arm as quantities_of
+from ..recordings.replay.arm_estimates import replay_arm
+from ..recordings.replay.arm_result import ArmReplay
+from ..recordings.scaling import of_arm
+from .arm_options import add_arm_options, bend_angles_from, load_from
+from .options import UsageError, add_tension_stddev_option
+from .progress import with_progress
+from .recording_options import add_table_options, table_from
+
+ARM_NODE = '/arm_estimator'
+
+
+class FollowedArm(NamedTuple):
+    """An arm that was followed through a recording."""
+
+    settings: ArmSettings
+    replay: ArmReplay
+
+    @property
+    def hints(self) -> list[str]:
+        """What looks wrong with the recording."""
+        settings = self.settings
+        return arm_hints(self.replay.recording, settings.arm, settings.plausibility)
+
+
+def add_arm_recording_options(parser: argparse.ArgumentParser) -> None:
+    """Add the arm, its recording, how that is read, and how the arm is followed through it."""
+    add_arm_options(parser)
+    parser.add_argument(
+        'data',
+        type=Path,
+        metavar='DATA',
+        help=f'recording, ending in {", ".join(ENDINGS)}, or the folder of a bag: the tensions at '
+        "the base, by the cables' names",
+    )
+    parser.add_argument(
+        '--parameters',
+        metavar='FILE',
+        help='ROS parameter file of arm_estimator: gains and biases of the load cells, what is '
+        'believed of them, where the joints begin; its arm_file is not looked at',
+    )
+    parser.add_argument(
+        '--node',
+        metavar='NAME',
+        default=ARM_NODE,
+        help='the estimator whose parameters are taken from that file; default: %(default)s',
+    )
+    parser.add_argument(
+        '--estimation',
+        choices=ARM_ESTIMATIONS,
+        help='how the arm is followed; default: that of the parameter file, or '
+        f'{ARM_ESTIMATIONS[0]}',
+    )
+    add_tension_stddev_option(parser, default=None)
+    add_table_options(parser, 'l_tip=Fz1,bend_angle_1=Enc1', 'tension=mN,bend_angle=deg')
+
+
+def followed_arm(options: argparse.Namespace) -> FollowedArm:
+    """Read arm, parameters and recording as the options say, and follow the one through it."""
+    settings, given = _settings_from(options)
+    recording = _recording_from(options, settings, given)
+    estimation = options.estimation or given.get('estimation') or ARM_ESTIMATIONS[0]
+    if estimation == 'filtering' and not (options.tension_stddev or 'tension_stddev' in given):
+        raise UsageError(
+            'estimation is filtering, which needs the noise of the load cells: give '
+            '--tension-stddev, in N, or tension_stddev in the parameter file'
+        )
+    load = _load_from(options, settings, recording)
+    replayed = replay_arm(settings, recording, estimation, load=load, progress=with_progress)
+    return FollowedArm(settings, replayed)
+
+
+def _settings_from(options: argparse.Namespace) -> tuple[ArmSettings, Mapping[str, Any]]:
+    """Return what the arm's estimator computes with, and the parameters of the file."""
+    arm = load_arm(options.arm)
+    given: Mapping[str, Any] = {}
+    path = options.parameters
+    try:
+        if path is not None:
+            node = options.node if options.node.startswith('/') else f'/{options.node}'
+            given = node_parameters(read_parameters(Path(path)), node)
+        names = joint_names(arm, given.get('joint_names') or (), given.get('arm_name') or 'arm')
+        settings = arm_settings_from(arm, given, names)
+    except (ParameterFileError, SettingError) as error:
+        raise ArmError(f'{path}: {error}') from None
+    stddev = options.tension_stddev or (
+        settings.tension_stddev if 'tension_stddev' in given else TENSION_STDDEV
+    )
+    changed: dict[str, Any] = {'tension_stddev': stddev}
+    if start := bend_angles_from(options):
+        changed['initial_bend_angles'] = tuple(start)
+    return dataclasses.replace(settings, **changed), given
+
+
+def _recording_from(
+    options: argparse.Namespace, settings: ArmSettings, given: Mapping[str, Any]
+) -> ArmRecording:
+    table = table_from(options, quantities_of(settings.arm))
+    found = load_arm_recording(options.data, settings.arm, table, progress=with_progress)
+    return of_arm(found, settings, given)
+
+
+def _load_from(
+    options: argparse.Namespace, settings: ArmSettings, recording: ArmRecording
+) -> Load:
+    """Return what acts beside the cables as far as it was not recorded."""
+    said = {
+        'the tilt of the base': ('base_tilt', ('base_tilt_deg', 'gravity_direction')),
+        'the force at the tip': ('tip_force_x', ('tip_force',)),
+    }
+    for what, (quantity, names) in said.items():
+        _refuse_both(recording, what, quantity, [n for n in names if getattr(options, n)])
+    return load_from(options, settings.gravity_direction)
+
+
+def _refuse_both(recording: ArmRecording, what: str, quantity: str, given: Sequence[str]) -> None:
+    if getattr(recording, quantity) is not None and given:
+        raise UsageError(
+            f'{recording.name} has {what} in it; --{given[0].replace("_", "-")} is for recordings '
+            'that do not'
+        )

@@ -1,0 +1,108 @@
+"""From the values of the parameters of an arm's estimator to what it computes with."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from ..estimation.arm_settings import ArmSettings
+from ..physics.arm import Arm
+from ..physics.arm.joints import check_bend_angles
+from ..physics.errors import ArmError, BendAngleError
+from .arm_file import load_arm
+from .arm_parameters import (
+    ARM_NUMBERS,
+    ARM_PARAMETERS,
+    ARM_VECTORS,
+    INITIAL_BEND_ANGLES,
+    cable_prefix,
+    cable_table,
+)
+from .installed_files import installed_config
+from .measuring_values import cable_scale, check_directions, measuring_in, numbers_in
+from .parameter_kinds import MisfitError, SettingError
+
+
+def arm_in(arm_file: str) -> Arm:
+    """Read the arm that the parameter ``arm_file`` names, the installed example if it is empty.
+
+    Raises
+    ------
+    SettingError
+        If it cannot be read, or is no arm.
+    """
+    path = Path(arm_file) if arm_file else installed_config('arm.yaml')
+    try:
+        return load_arm(path)
+    except ArmError as error:
+        raise SettingError(f'arm_file: {error}') from None
+
+
+def joint_names(arm: Arm, given: Iterable[str], arm_name: str) -> tuple[str, ...]:
+    """Return the names of the joints, from the base on.
+
+    Raises
+    ------
+    SettingError
+        If those that are given are not one for each joint, all different.
+    """
+    names, count = tuple(given), len(arm.units)
+    if not names:
+        return tuple(f'{arm_name}_joint_{number}' for number in range(1, count + 1))
+    if len(names) != count or len(set(names)) != count or not all(names):
+        raise SettingError(
+            f'joint_names is {list(names)!r}, but the arm has {count} joints: as many different '
+            'names are needed, from the base on, or none'
+        )
+    return names
+
+
+def check_arm_parameters(arm: Arm, values: Mapping[str, Any]) -> None:
+    """Check what is given of the parameters of an arm's estimator, one by one.
+
+    Raises
+    ------
+    SettingError
+        If a value is not allowed; the text names the parameter, its value and what is allowed.
+    """
+    for parameter in (*ARM_PARAMETERS, *cable_table(arm.cable_names)):
+        if parameter.name in values:
+            parameter.check(values[parameter.name])
+    check_directions(values)
+
+
+def arm_settings_from(
+    arm: Arm, values: Mapping[str, Any], names: tuple[str, ...] = ()
+) -> ArmSettings:
+    """Make settings of the values of parameters by name; what is not given has its default.
+
+    Foreign names are left alone.
+
+    Parameters
+    ----------
+    names : tuple of str
+        Of the joints, from the base on; empty: as by default.
+
+    Raises
+    ------
+    SettingError
+        If a value is not valid; the text names the parameter, its value and what is allowed.
+    MisfitError
+        If the joints cannot begin at their angles.
+    """
+    check_arm_parameters(arm, values)
+    number = numbers_in(values, cable_table(arm.cable_names))
+    start = tuple(map(float, values.get(INITIAL_BEND_ANGLES.name, ())))
+    if start:
+        try:
+            check_bend_angles(arm, start)
+        except BendAngleError as error:
+            raise MisfitError(f'{INITIAL_BEND_ANGLES.name}: {error}') from None
+    return ArmSettings(
+        arm,
+        names or joint_names(arm, (), 'arm'),
+        cables=tuple(cable_scale(cable_prefix(name), number) for name in arm.cable_names),
+        initial_bend_angles=start,
+        **measuring_in(values, ARM_NUMBERS, ARM_VECTORS, ArmSettings),
+    )

@@ -1,0 +1,88 @@
+"""The parameters of an arm's estimator on its node."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import NamedTuple
+
+from rclpy.node import Node
+
+from ...estimation.arm_settings import ArmSettings
+from ...files.arm_parameters import ARM_CHANGEABLE, ARM_WIRING, CABLES, cable_table
+from ...files.arm_settings import (
+    arm_in,
+    arm_settings_from,
+    check_arm_parameters,
+    joint_names,
+)
+from ...files.parameter_kinds import SettingError
+from ...physics.arm import Arm
+from .declaration import declare_all
+from .table import NodeTable
+
+
+class ArmWiring(NamedTuple):
+    """What is fixed while the node runs; the fields are the names of the parameters."""
+
+    arm_file: str
+    tension_source: str
+    estimation: str
+    gravity_source: str
+    tip_wrench: bool
+    frame_id: str
+    arm_name: str
+    joint_names: tuple[str, ...]
+    markers: bool
+    executor: str
+    service_depth: int
+    autostart: bool
+
+    @property
+    def hardware_id(self) -> str:
+        """In ``/diagnostics``."""
+        return self.arm_name
+
+
+def declare_arm_wiring(node: Node) -> tuple[ArmWiring, Arm]:
+    """Declare what is fixed; return what it is set to, with all joints named, and the arm.
+
+    Raises
+    ------
+    SettingError
+        If a value is not allowed, or the arm's file gives no arm.
+    """
+    given = ArmWiring(**declare_all(node, ARM_WIRING))
+    if not given.arm_file:
+        node.get_logger().warning('No arm_file came, so this is the arm of the installed example')
+    arm = arm_in(given.arm_file)
+    names = joint_names(arm, given.joint_names, given.arm_name)
+    return given._replace(joint_names=names), arm
+
+
+def arm_table(arm: Arm, names: tuple[str, ...]) -> NodeTable[ArmSettings]:
+    """Return the table of the estimator of an arm whose joints have these names."""
+    return NodeTable(
+        ARM_WIRING,
+        (*ARM_CHANGEABLE, *cable_table(arm.cable_names)),
+        partial(check_arm_parameters, arm),
+        partial(arm_settings_from, arm, names=names),
+    )
+
+
+def check_cables(node: Node, arm: Arm) -> None:
+    """Check that what is given of cables is of those that the arm has.
+
+    Raises
+    ------
+    SettingError
+        If a cable, or what is said of it, is not known.
+    """
+    known = {parameter.name for parameter in cable_table(arm.cable_names)}
+    # rclpy has no public view of overrides that nobody declares; a misspelt one would be ignored.
+    for name, given in node._parameter_overrides.items():
+        if name.startswith(CABLES) and name not in known:
+            raise SettingError(
+                f'{name} is {given.value!r}, but there is no such parameter; the cables are '
+                f'{", ".join(arm.cable_names)}, and each has gain, bias, max_tension and '
+                'slack_threshold'
+            )
