@@ -24,7 +24,7 @@ from rclpy.context import Context
 from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.qos import QoSProfile
 from rclpy.time import Time
-from ros_programs import Program, wait_for
+from ros_programs import Program, answer_of, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Header
 from std_srvs.srv import Trigger
@@ -205,9 +205,7 @@ class Listener(EstimatorClient):
         """
         client = self._clients_by_name[name]
         wait_for(name, client.service_is_ready)
-        future = client.call_async(request)
-        wait_for(f'an answer of {name}', future.done)
-        return future.result()
+        return answer_of(client.call_async(request), name)
 
     def solve_inverse(self, bend_angle: float, **given: float) -> SolveInverse.Response:
         """Call ``~/solve_inverse``."""
