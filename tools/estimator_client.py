@@ -7,11 +7,10 @@ from contextlib import contextmanager
 from typing import Any, ClassVar
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
-from lifecycle_msgs.srv import GetState
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
-from ros_programs import Program, ask, wait_for
+from ros_programs import Program, ask, become_known, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray, String
 from tendon_statics_interfaces.msg import Estimate
@@ -93,13 +92,7 @@ class EstimatorClient(Node):
             yield program
 
     def connect(self, program: Program, *, without: str = '') -> None:
-        """Wait until nothing is lost any more either way, on every topic but the one named.
-
-        This side sees itself which publishers and subscriptions it has found. But what the other
-        side does not know yet is lost, or never sent. That learns of the publishers, subscriptions
-        and clients of a node in the order in which they were made, so it knows all of them when
-        it answers a client that is made now.
-        """
+        """Wait until nothing is lost any more either way, on every topic but the one named."""
         expected = [
             subscription
             for subscription in self._answered
@@ -113,7 +106,7 @@ class EstimatorClient(Node):
             ) and all(subscription.get_publisher_count() > 0 for subscription in expected)
 
         wait_for('the estimator', found)
-        ask(self.create_client(GetState, 'estimator/get_state'), GetState.Request())
+        become_known(self, 'estimator')
 
     def forget(self) -> None:
         """Forget all that came of results."""

@@ -16,10 +16,12 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ament_index_python.packages import get_package_prefix
+from lifecycle_msgs.srv import GetState
 from rclpy.client import Client
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.task import Future
 
 EXECUTOR = os.environ.get('EXECUTOR')
 """What every estimator that is run here is told to spin in, if it is told"""
@@ -56,6 +58,23 @@ def ask(client: Client, request: Any) -> Any:
             )
         patience *= 2.0
     return next(future.result() for future in asked if future.done())
+
+
+def answer_of(future: Future, name: str) -> Any:
+    """Wait for the answer of a service that was asked once."""
+    wait_for(f'an answer of {name}', future.done)
+    return future.result()
+
+
+def become_known(node: Node, managed: str) -> None:
+    """Wait until a managed node knows all that a node has made so far, and is spun.
+
+    The node sees itself which publishers and subscriptions it has found. But what the other side
+    does not know yet is lost, or never sent. That learns of the publishers, subscriptions and
+    clients of a node in the order in which they were made, so it knows all of them when it answers
+    a client that is made now.
+    """
+    ask(node.create_client(GetState, f'{managed}/get_state'), GetState.Request())
 
 
 _ENDED = os.WEXITED | os.WNOWAIT | os.WNOHANG

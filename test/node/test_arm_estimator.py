@@ -325,7 +325,8 @@ def test_the_lifecycle_is_that_of_every_managed_node(client):
         assert not client.change_state('activate')
         assert client.change_state('configure')
         assert client.change_state('activate')
-        client.greet(program)
+        client.settle()
+        client.forget()
         assert all(client.answer(HELD).angles_assured)
         assert client.change_state('deactivate')
         wait_for('stale', lambda: client.regimes[-1].regimes[0] == 'stale')
@@ -372,9 +373,7 @@ def test_an_arm_of_one_unit_says_what_the_estimator_of_the_unit_says(tmp_path):
     with (
         spinning(lambda context: ArmClient(context, ('cable_l', 'cable_s'))) as client,
         spinning(lambda context: Listener(context, 'joint_state')) as listener,
-        listener.estimator(
-            *('-p', 'estimation:=tracking', *reliable_input('joint_state'), *LONG), greet=False
-        ),
+        listener.estimator(*('-p', 'estimation:=tracking', *reliable_input('joint_state'), *LONG)),
         client.estimator('-p', f'arm_file:={path}', *LONG),
     ):
         wait_for('the estimator', lambda: len(listener.estimates) > 0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from typing import Any, ClassVar
 
 from builtin_interfaces.msg import Time as Stamp
@@ -17,7 +17,7 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.qos import DurabilityPolicy, QoSProfile
-from ros_programs import EXECUTOR, TIME_LIMIT, Program, wait_for
+from ros_programs import EXECUTOR, Program, answer_of, become_known, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
 from std_srvs.srv import Trigger
@@ -90,18 +90,22 @@ class ArmClient(Node):
 
     @contextmanager
     def estimator(self, *arguments: str, greet: bool = True) -> Iterator[Program]:
-        """Run the installed estimator of an arm, connected with this node in both directions."""
+        """Run the installed estimator of an arm, connected with this node.
+
+        Unless it is not to be greeted, it has answered even tensions, and that is forgotten.
+        """
         more = ('-p', f'executor:={EXECUTOR}') if EXECUTOR else ()
         with Program.running(
             'arm_estimator', '--ros-args', *RELIABLE, *arguments, *more
         ) as program:
             self.connect(program)
             if greet:
-                self.greet(program)
+                self.settle()
+                self.forget()
             yield program
 
     def connect(self, program: Program) -> None:
-        """Wait until the ends of all topics and services are found."""
+        """Wait until nothing is lost any more of what goes either way."""
 
         def found() -> bool:
             assert program.process.poll() is None, program.output()
@@ -113,22 +117,7 @@ class ArmClient(Node):
             )
 
         wait_for('the estimator of the arm', found)
-
-    def greet(self, program: Program) -> None:
-        """Send even tensions until all topics have answered, and forget the answers.
-
-        That both ends are found is known on this side only; what comes before the other knows
-        them too is lost.
-        """
-        stores = self.joint_states, self.tip_poses, self.estimates, self.regimes
-        for _ in range(int(TIME_LIMIT)):
-            assert program.process.poll() is None, program.output()
-            self.send_even()
-            with suppress(TimeoutError):
-                wait_for('an answer', lambda: all(stores), time_limit=1.0)
-                break
-        self.settle()
-        self.forget()
+        become_known(self, 'arm_estimator')
 
     def settle(self) -> None:
         """Wait until as much has come on all topics; a mark tells the last."""
@@ -169,14 +158,8 @@ class ArmClient(Node):
         )
 
     def call(self, name: str, request: Any) -> Any:
-        """Call a service; again while no answer comes, for one may be lost at first."""
-        client = self._asked[name]
-        for _ in range(int(TIME_LIMIT)):
-            future = client.call_async(request)
-            with suppress(TimeoutError):
-                wait_for(f'an answer of {name}', future.done, time_limit=5.0)
-                return future.result()
-        raise TimeoutError(f'no answer of {name}')
+        """Call a service, whose answer cannot be lost since the estimator knows this node."""
+        return answer_of(self._asked[name].call_async(request), name)
 
     def trigger(self, name: str) -> Trigger.Response:
         """Call a service that takes nothing."""

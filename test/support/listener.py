@@ -24,7 +24,7 @@ from rclpy.context import Context
 from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.qos import QoSProfile
 from rclpy.time import Time
-from ros_programs import Program, wait_for
+from ros_programs import Program, answer_of, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Header
 from std_srvs.srv import Trigger
@@ -189,13 +189,13 @@ class Listener(EstimatorClient):
         wait_for(f'an answer to {data}', lambda: len(self.regimes) > before)
         return self.regimes[before]
 
+    def has_all_estimates(self) -> bool:
+        """Whether the estimate of every answer has come."""
+        return len(self.estimates) >= sum(regime != 'invalid' for regime in self.regimes)
+
     def newest_estimate(self) -> Any:
         """Wait for the estimate of the last answer, which is the last thing said of it."""
-
-        def come() -> bool:
-            return len(self.estimates) >= sum(regime != 'invalid' for regime in self.regimes)
-
-        wait_for('the estimate', come)
+        wait_for('the estimate', self.has_all_estimates)
         return self.estimates[-1]
 
     def call_once(self, name: str, request: Any) -> Any:
@@ -205,9 +205,7 @@ class Listener(EstimatorClient):
         """
         client = self._clients_by_name[name]
         wait_for(name, client.service_is_ready)
-        future = client.call_async(request)
-        wait_for(f'an answer of {name}', future.done)
-        return future.result()
+        return answer_of(client.call_async(request), name)
 
     def solve_inverse(self, bend_angle: float, **given: float) -> SolveInverse.Response:
         """Call ``~/solve_inverse``."""
