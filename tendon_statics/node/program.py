@@ -81,7 +81,7 @@ def run(name: str, module: str, node_class: str, arguments: Sequence[str] | None
         try:
             node = make_node()
             namespace = node.get_namespace().rstrip('/')
-            beside = '' if name == ESTIMATOR else f'{namespace}/{ESTIMATOR}'
+            beside = () if name == ESTIMATOR else (f'{namespace}/{ESTIMATOR}',)
             check_parameter_files(arguments, node.get_fully_qualified_name(), beside)
         except (StartError, ParameterException, RuntimeError, ValueError) as error:
             # RuntimeError and ValueError are rclpy's own, of bad overrides and names.
