@@ -34,6 +34,9 @@ MOST_GROWTH = 5.0
 WARM_UP = 0.1
 """Share of the stream in which that happens"""
 
+LATE = 600.0
+"""Seconds to wait for what waits in queues, where others have the processor"""
+
 ACCOUNTED = ('pairs solved', 'readings solved', *(f'dropped: {reason.value}' for reason in Reason))
 
 
@@ -83,7 +86,7 @@ def soak(observer: Observer, subject: Subject, seconds: float) -> int:
             wait_for('the estimator', lambda: observer.estimates() > 0)
             wait_for('the end of it', lambda: 'Sent: ' in made.output())
             wait_for('its reports', lambda: observer.counts)
-        wait_for('the last of them', observer.is_quiet)
+        wait_for('the last of them', observer.is_quiet, LATE)
         before, came = dict(observer.counts), observer.came.copy()
         memory = [estimator.memory()]
         count = round(0.8 * seconds * subject.rate)
@@ -97,7 +100,10 @@ def soak(observer: Observer, subject: Subject, seconds: float) -> int:
             sent = made.sent()
             memory.append(estimator.memory())
             # Until then the driver must be there, since what is on the way ends with it.
-            wait_for('all that is out', observer.is_quiet)
+            wait_for(
+                'every message', lambda: observer.taken_since(before) >= sent['messages'], LATE
+            )
+            wait_for('all that is out', observer.is_quiet, LATE)
         grown = observer.grown_since(before)
         came = observer.came - came
         settings = Counter(observer.settings)
@@ -122,7 +128,7 @@ def kill_drivers(observer: Observer, subject: Subject, seconds: float) -> int:
             wait_for('estimates', lambda n=known: observer.estimates() > n + 100)
             made.end(signal.SIGKILL)
         killed += 1
-        wait_for('all that is out', observer.is_quiet)
+        wait_for('all that is out', observer.is_quiet, LATE)
     return killed
 
 

@@ -14,9 +14,13 @@ from rcl_interfaces.srv import SetParameters
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.time import Time
 from ros_programs import wait_for
 
 from .subject import Subject
+
+QUIET = 2.5
+"""Seconds, longer than between two reports"""
 
 
 class Observer(Node):
@@ -30,7 +34,8 @@ class Observer(Node):
         """How parameters were set: as expected, or otherwise"""
         self._subject = subject
         self._client = self.create_client(SetParameters, f'{subject.program}/set_parameters')
-        self._is_quiet = False
+        self._state: tuple[int, int] = (0, 0)
+        self._changed_at = self._reported_at = 0.0
         for name, kind in subject.outputs.items():
             self.create_subscription(
                 kind,
@@ -47,10 +52,11 @@ class Observer(Node):
 
     def _keep(self, message: DiagnosticArray) -> None:
         values = message.status[0].values
-        counted = {item.key: int(item.value) for item in values if item.value.isdigit()}
-        key = 'messages received'
-        self._is_quiet = counted[key] == self.counts.get(key)
-        self.counts = counted
+        self.counts = {item.key: int(item.value) for item in values if item.value.isdigit()}
+        self._reported_at = 1e-9 * Time.from_msg(message.header.stamp).nanoseconds
+        state = self.counts['messages received'], self.came.total()
+        if state != self._state:
+            self._state, self._changed_at = state, self._reported_at
 
     def estimates(self) -> int:
         """How many have come."""
@@ -60,9 +66,17 @@ class Observer(Node):
         """Return by how much the estimator's counts have grown."""
         return Counter({key: value - before.get(key, 0) for key, value in self.counts.items()})
 
+    def taken_since(self, before: dict[str, int]) -> int:
+        """Return how many messages more the estimator has received or knows to be lost."""
+        grown = self.grown_since(before)
+        return grown['messages received'] + grown['messages lost on the way']
+
     def is_quiet(self) -> bool:
-        """Whether nothing came between the last two reports."""
-        return self._is_quiet
+        """Whether for a while nothing came, neither to the estimator nor of it.
+
+        By the times of its reports, some of which follow each other closely.
+        """
+        return self._reported_at - self._changed_at > QUIET
 
     @contextmanager
     def meddling(self) -> Iterator[None]:
