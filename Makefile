@@ -35,8 +35,8 @@ test: setup ## Run all tests (ARGS='-m node' chooses; with CI=1 more examples of
 MINUTES ?= 5
 
 .PHONY: soak
-soak: setup ## Stream faulty tensions at the estimator and balance the books (MINUTES=5)
-	@$(run) python tools/soak.py --minutes $(MINUTES)
+soak: setup ## Stream faulty tensions at the estimators and balance the books (MINUTES=5)
+	@$(run) cd tools && python -m soak --minutes $(MINUTES) $(ARGS)
 
 # How often to run the tests of the node beside busy loops.
 RUNS ?= 10

@@ -168,7 +168,9 @@ def node_parameter(content: object, node: str, parameter: str) -> object:
     return found
 
 
-def check_parameter_files(arguments: Sequence[str], node: str = '', beside: str = '') -> None:
+def check_parameter_files(
+    arguments: Sequence[str], node: str = '', beside: Sequence[str] = ()
+) -> None:
     """Check the parameter files of a node, as strictly as their strictest reader does.
 
     Parameters
@@ -178,8 +180,9 @@ def check_parameter_files(arguments: Sequence[str], node: str = '', beside: str 
     node : str
         Full name of the node. A file that is for other nodes only is refused: the node would
         compute with another unit than is meant. Empty: this is not checked.
-    beside : str
-        Full name of another node; files that are for it are left alone, as one may serve both.
+    beside : sequence of str
+        Full names of other nodes; files that are for one of them are left alone, as a file may
+        serve several.
 
     Raises
     ------
@@ -193,7 +196,7 @@ def check_parameter_files(arguments: Sequence[str], node: str = '', beside: str 
         try:
             content = read_parameters(Path(value))
             names = [name for name, _ in parameter_blocks(content)]
-            is_shared = beside and any(fits(name, beside) for name in names)
+            is_shared = any(fits(name, other) for name in names for other in beside)
             if node and not is_shared:
                 node_parameters(content, node)
         except ParameterFileError as error:

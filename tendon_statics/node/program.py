@@ -86,7 +86,7 @@ def run(name: str, module: str, node_class: str, arguments: Sequence[str] | None
         try:
             node = make_node()
             namespace = node.get_namespace().rstrip('/')
-            beside = '' if name in ESTIMATORS else f'{namespace}/{ESTIMATORS[0]}'
+            beside = [f'{namespace}/{of}' for of in ESTIMATORS if name not in ESTIMATORS]
             check_parameter_files(arguments, node.get_fully_qualified_name(), beside)
         except (StartError, ParameterException, RuntimeError, ValueError) as error:
             # RuntimeError and ValueError are rclpy's own, of bad overrides and names.

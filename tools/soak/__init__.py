@@ -1,0 +1,1 @@
+"""The soak: minutes of faulty tensions, and books that have to balance."""
