@@ -180,6 +180,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument('--seed', type=int, help='default: a fresh one')
     options = parser.parse_args(arguments)
     seed = secrets.randbits(32) if options.seed is None else options.seed
+    print(f'seed {seed}', file=sys.stderr)
     count = int(options.seconds * options.rate)
     rows, everything = [], []
     for units in UNITS:
@@ -195,7 +196,7 @@ def main(arguments: list[str] | None = None) -> int:
     header = ('units:', 'covered [%]:', 'least [%]:', 'tip covered [%]:', 'width [deg]:')
     more = ('off [%]:', 'off, committed [%]:', 'off, tracker [%]:', 'tip off [mm]:')
     last = ('tip off, tracker [mm]:', 'pressure covered [%]:', 'median, mean, p90 [ms]:')
-    print(markdown_table((*header, *more, *last), rows))
+    print(markdown_table((*header, *more, *last), rows), flush=True)
     header = ('units:', 'rests [ms]:', 'slips, median [ms]:', 'nine tenths [ms]:', 'worst [ms]:')
     print('\n' + markdown_table(header, [costs(units, options.rate) for units in (1, 2, 5, 10)]))
     print(f'\n{len(everything)} arms, {options.seconds:g} s at {options.rate:g} Hz, seed {seed}')
