@@ -112,14 +112,19 @@ def tension_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
     return tension_stddev_of(options, unit) or TENSION_STDDEV
 
 
-def add_bend_angle_stddev_option(parser: argparse.ArgumentParser) -> None:
-    """Add ``--bend-angle-stddev-deg DEG``."""
+def add_bend_angle_stddev_option(
+    parser: argparse.ArgumentParser, default: float | None = None
+) -> None:
+    """Add ``--bend-angle-stddev-deg DEG``; without a default that is the design file's."""
+    standard = f'{math.degrees(BEND_ANGLE_STDDEV):g}'
+    of_file = f'measured_bend_angle_stddev of the design file, or {standard}'
     parser.add_argument(
         '--bend-angle-stddev-deg',
         type=_deviation_or_0,
+        default=default,
         metavar='DEG',
         help='standard deviation of a measured angle in degrees; default: '
-        f'measured_bend_angle_stddev of the design file, or {math.degrees(BEND_ANGLE_STDDEV):g}',
+        f'{of_file if default is None else f"{default:g}"}',
     )
 
 

@@ -34,6 +34,11 @@ def add_line_options(parser: argparse.ArgumentParser, *, required: bool) -> None
         help="where it acts along the unit's axis, in m from the centre of the ball; default: "
         'tip_distance of the design file',
     )
+    add_level_option(group)
+
+
+def add_level_option(group: argparse._ArgumentGroup) -> None:
+    """Add ``--level``."""
     group.add_argument(
         '--level',
         type=_level,
