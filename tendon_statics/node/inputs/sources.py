@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable
 from functools import partial
-from typing import Any, NamedTuple
 
-from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Vector3, WrenchStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
-from ...tensions.joining import Joining, Whole
 from ...tensions.named_values import NamedValues, cable_values
 from ...tensions.reason import Reason
-from ...tensions.stamp_order import NANOSECONDS
 from ..parameters.estimator import Wiring
+from .joining import JoiningSource
+from .tension_source import Deliver, Drop, Reading, TensionSource, nanoseconds
 
 COMPONENTS: dict[str, Callable[[Vector3], float]] = {
     'z': lambda force: force.z,
@@ -25,59 +23,6 @@ COMPONENTS: dict[str, Callable[[Vector3], float]] = {
     'norm': lambda force: math.hypot(force.x, force.y, force.z),
 }
 """Of the force of a load cell"""
-
-
-class Reading(NamedTuple):
-    """What was measured of all cables at one time."""
-
-    values: Sequence[float]
-    """In the driver's unit, in the order of the cables: of a unit l and s"""
-    stamp: Time | None = None
-    """None if the message has none, or 0, which means the same"""
-
-
-Deliver = Callable[[Reading], None]
-Drop = Callable[[Reason, str], None]
-Takes = Callable[[Any, int], None]
-"""Takes a message, and when it arrived in ns since 1970"""
-
-
-class TensionSource:
-    """Turns messages of one kind into readings.
-
-    Attributes
-    ----------
-    inputs : dict
-        Topic → type of its messages and what takes one, with its time of arrival.
-
-    Parameters
-    ----------
-    deliver, drop : callable
-        Take what comes of the messages: a reading, or the reason for none with a text.
-    """
-
-    inputs: dict[str, tuple[type, Takes]]
-    kind: str
-    """As the parameter ``tension_source`` has it"""
-    has_one_publisher = True
-    """Whether each topic is to have one publisher alone"""
-
-    def __init__(self, deliver: Deliver, drop: Drop) -> None:
-        self._deliver = deliver
-        self._drop = drop
-
-    def is_foreign(self, _message: Any) -> bool:
-        """Whether a message is about no cable, so that it is none of ours."""
-        return False
-
-    def loosen(self) -> None:
-        """Take it that the driver may have begun anew, with an earlier clock, until `tighten`."""
-
-    def tighten(self) -> None:
-        """Take it that the stamps are sound again, since tensions came of them."""
-
-    def forget(self) -> None:
-        """Forget what came before, for the clock was set back or the node was inactive."""
 
 
 class ArraySource(TensionSource):
@@ -107,55 +52,6 @@ class ArraySource(TensionSource):
                 Reason.WRONG_LENGTH,
                 f'{len(values)} values came, [{", ".join(self._needed)}] is needed',
             )
-
-
-class JoiningSource(TensionSource):
-    """What has stamps, and may come with some cables a message: see `Joining`.
-
-    The reading has the latest of the stamps.
-
-    Parameters
-    ----------
-    cable_names : tuple of str
-        What the cables are called.
-    max_skew : callable
-        Returns the most that two times of a reading may differ, in s.
-    """
-
-    def __init__(
-        self,
-        deliver: Deliver,
-        drop: Drop,
-        cable_names: tuple[str, ...],
-        max_skew: Callable[[], float],
-    ) -> None:
-        super().__init__(deliver, drop)
-        self._cable_names = cable_names
-        self._joining = Joining(
-            self._deliver_whole, lambda fault, _: self._drop(*fault), cable_names, max_skew
-        )
-
-    def loosen(self) -> None:
-        """As in `TensionSource`."""
-        self._joining.loosen()
-
-    def tighten(self) -> None:
-        """As in `TensionSource`."""
-        self._joining.tighten()
-
-    def forget(self) -> None:
-        """As in `TensionSource`; what still waits is dropped."""
-        self._joining.forget()
-
-    def _take_values(self, values: NamedValues, stamp: Time, arrival: int) -> None:
-        self._joining.take(values, nanoseconds(stamp), arrival, stamp)
-
-    def _deliver_whole(self, whole: Whole) -> None:
-        stamp: Time = whole.sources[-1]
-        self._deliver(Reading(whole.values, stamp if nanoseconds(stamp) else None))
-
-    def _named(self, cables: Iterable[int]) -> str:
-        return ', '.join(self._cable_names[cable] for cable in cables)
 
 
 class JointStateSource(JoiningSource):
@@ -251,8 +147,3 @@ def tension_source(
     if wiring.tension_source == 'wrench_pair':
         return WrenchPairSource(deliver, drop, wiring.wrench_component, max_skew)
     return ArraySource(deliver, drop)
-
-
-def nanoseconds(stamp: Time) -> int:
-    """Return a stamp as nanoseconds since its clock's start."""
-    return stamp.sec * NANOSECONDS + stamp.nanosec
