@@ -22,7 +22,11 @@ def main() -> None:
         for right, names in rights.items():
             kind = 'topic' if right in RIGHTS['topics'] else 'service'
             for name in names:
-                shown = name if role == 'estimator' else name.replace(f'/{role}/', '~/')
+                shown = (
+                    name
+                    if role in ('estimator', 'arm_estimator')
+                    else name.replace(f'/{role}/', '~/')
+                )
                 cells.setdefault((kind, shown), {}).setdefault(role, []).append(right)
     rows = [
         (kind, f'`{name}`', *(', '.join(cell.get(role, ())) for role in roles))

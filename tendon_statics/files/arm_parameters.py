@@ -21,10 +21,13 @@ from .measuring_parameters import (
     MARKERS,
     MAX_CLOCK_OFFSET,
     MAX_SKEW,
+    MEASURED_BEND_ANGLE_STDDEV,
     PLAUSIBILITY,
     SERVICE_DEPTH,
     TARE,
     TENSION_STDDEV,
+    TIP_DIRECTION,
+    TIP_FORCE,
     TIP_WRENCH,
 )
 from .parameter_kinds import (
@@ -59,6 +62,10 @@ ARM_NUMBERS: tuple[NumberParameter, ...] = (
     dataclasses.replace(
         TENSION_STDDEV, description='standard deviation of each measured tension, all independent'
     ),
+    dataclasses.replace(
+        MEASURED_BEND_ANGLE_STDDEV,
+        description='`tip_force`: standard deviation of what comes on `measured_joint_states`',
+    ),
     INPUT_TIMEOUT,
     dataclasses.replace(
         MAX_SKEW,
@@ -81,6 +88,11 @@ ARM_VECTORS = (
     dataclasses.replace(
         IMU_MOUNTING,
         description="`imu`: roll, pitch and yaw of the IMU in the base's frame, as in URDF",
+    ),
+    dataclasses.replace(
+        TIP_DIRECTION,
+        description="unit vector in the plane of bending, in the base's frame, along which "
+        '`tip_force` looks for a force on the end of the last unit',
     ),
 )
 
@@ -111,6 +123,11 @@ ARM_WIRING: tuple[Parameter, ...] = (
         TIP_WRENCH,
         "whether the force on the end of the last unit comes on `tip_wrench`, in the base's "
         'frame; else there is none',
+    ),
+    _said(
+        TIP_FORCE,
+        'whether there is `~/tip_force`: what else pushes at the end of the last unit; angles are '
+        'taken from `measured_joint_states` where they come',
     ),
     TextParameter(
         'frame_id',

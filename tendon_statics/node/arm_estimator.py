@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 
+from builtin_interfaces.msg import Time
 from sensor_msgs.msg import JointState
 
 from ..estimation.arm_estimate import ArmEstimate
@@ -13,6 +14,7 @@ from ..estimation.arm_settings import ArmSettings
 from ..estimation.health import Health
 from ..files.arm_parameters import cable_prefix
 from .arm_services import offer_arm_services
+from .arm_tip_force import ArmTipForces
 from .inputs.measured_joints import measured_joints
 from .inputs.sources import TensionSource, arm_tension_source
 from .managed_estimator import ManagedEstimator
@@ -28,6 +30,7 @@ class ArmEstimator(ManagedEstimator[ArmSettings, ArmEstimate]):
     core: ArmFollower
 
     def __init__(self) -> None:
+        self._tip_forces: ArmTipForces | None = None
         super().__init__('arm_estimator')
 
     def _declare(self) -> None:
@@ -62,6 +65,8 @@ class ArmEstimator(ManagedEstimator[ArmSettings, ArmEstimate]):
         )
 
     def _connect(self) -> None:
+        if self._wiring.tip_force:
+            self._tip_forces = ArmTipForces(self)
         self._inputs.add('measured_joint_states', JointState, self._on_measured_joint_states)
         offer_arm_services(self)
 
@@ -86,9 +91,21 @@ class ArmEstimator(ManagedEstimator[ArmSettings, ArmEstimate]):
             },
         }
 
+    def _forget_more(self) -> None:
+        if self._tip_forces is not None:
+            self._tip_forces.forget()
+
+    def _publish_more(
+        self, estimate: ArmEstimate, _measured: float, stamp: Callable[[], Time]
+    ) -> None:
+        if self._tip_forces is not None:
+            self._tip_forces.publish(estimate, stamp)
+
     def _on_measured_joint_states(self, message: JointState) -> None:
         angles, fault = measured_joints(message, self._wiring.joint_names)
         if fault:
             self._reject_correction(fault)
+        if self._tip_forces is not None:
+            self._tip_forces.note_angles(angles)
         for error in self.core.measure(angles, time.monotonic()):
             self._reject_correction(error)

@@ -23,6 +23,8 @@ from .services import offer
 if TYPE_CHECKING:
     from .estimator import Estimator
 
+__all__ = ['PERIOD', 'TipForceMessage', 'TipForces', 'tip_force_message', 'tip_wrench_message']
+
 PERIOD = 0.02
 """Least time in s between two of them, each of which takes some 2 ms"""
 

@@ -15,7 +15,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
 from tendon_statics_interfaces.srv import SolveArm
 
-from tendon_statics import ArmTracker, StickSlipTracker, load_arm
+from tendon_statics import ArmTracker, Load, StickSlipTracker, arm_tip_force, load_arm
 from tendon_statics.files.installed_files import installed_config
 
 ARM = load_arm(installed_config('arm.yaml'))
@@ -407,3 +407,66 @@ def test_an_arm_of_one_unit_says_what_the_estimator_of_the_unit_says(tmp_path):
             else:
                 assert stddev == pytest.approx(of_unit.bend_angle_stddev, rel=1e-12)
             assert list(of_arm.angles_assured) == [of_unit.angle_assured]
+
+
+def test_gravity_and_the_force_on_the_tip_come_from_sensors(client):
+    """In the base's frame; until they come the arm stays where it began."""
+    from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
+    from sensor_msgs.msg import Imu
+
+    imu = client.create_publisher(Imu, 'imu', 10)
+    wrench = client.create_publisher(WrenchStamped, 'tip_wrench', 10)
+    sensors = ('-p', 'gravity_source:=imu', '-p', 'tip_wrench:=true', '-p', 'load_timeout:=60.0')
+    with client.estimator(*sensors, *LONG, greet=False):
+
+        def without():
+            client.send(PULLED)
+            time.sleep(0.05)
+            return bool(client.estimates)
+
+        wait_for('an estimate', without)
+        assert not client.estimates[-1].load_assured
+        assert not any(client.estimates[-1].angles_assured)
+        header = Header(frame_id='base')
+        gravity = Imu(linear_acceleration=Vector3(x=-9.81))
+        gravity.orientation_covariance[0] = -1.0
+        push = WrenchStamped(header=header, wrench=Wrench(force=Vector3(z=-0.01)))
+
+        def with_sensors():
+            imu.publish(gravity)
+            wrench.publish(push)
+            client.send_even()
+            time.sleep(0.05)
+            return client.estimates[-1].load_assured
+
+        wait_for('the load', with_sensors)
+        newest = client.estimates[-1]
+        assert newest.gravity_direction_x == pytest.approx(1.0)
+        assert newest.tip_force_z == -0.01
+        load = Load((1.0, 0.0, 0.0), (0.0, -0.01))
+        assert same(newest.bend_angles, ArmTracker(ARM).update(EVEN, load).bend_angles)
+
+
+def test_what_pushes_at_the_tip_is_told_from_measured_angles(client):
+    from tendon_statics_interfaces.msg import TipForce
+
+    forces = []
+    client.create_subscription(TipForce, 'arm_estimator/tip_force', forces.append, 10)
+    with client.estimator('-p', 'tip_force:=true', *LONG):
+        angles = dict.fromkeys(NAMES, 0.0)
+
+        def told():
+            client.measure(**angles)
+            client.send(HELD)
+            time.sleep(0.05)
+            return bool(forces) and forces[-1].bend_angle_measured
+
+        wait_for('a force from measured angles', told)
+        found = arm_tip_force(
+            ARM, HELD, bend_angles=list(angles.values()), direction=(1.0, 0.0, 0.0)
+        )
+        ends = [end for interval in found.intervals for end in interval]
+        assert list(forces[-1].intervals) == pytest.approx(ends, abs=1e-9)
+        assert ends
+        assert math.isnan(forces[-1].level)
+        assert forces[-1].tip_distance == ARM.units[-1].length

@@ -29,6 +29,7 @@ class ArmWiring(NamedTuple):
     estimation: str
     gravity_source: str
     tip_wrench: bool
+    tip_force: bool
     frame_id: str
     arm_name: str
     joint_names: tuple[str, ...]
