@@ -34,11 +34,14 @@ def test_figures_are_shown_somewhere(figure):
     assert any(name in (ROOT / page).read_text(encoding='utf-8') for page in PAGES)
 
 
-def test_the_reference_names_everything_the_node_has():
+@pytest.mark.parametrize('kind', ['estimator', 'arm_estimator'])
+def test_the_reference_names_everything_a_node_has(kind):
     """Asked of the node itself: its topics, services and parameters."""
-    from list_entities import entities, estimator
+    import list_entities
+    from list_entities import entities
 
-    with estimator('estimation:=tracking', 'markers:=true', 'tip_force:=true') as node:
+    make = getattr(list_entities, kind)
+    with make('estimation:=tracking', 'markers:=true', 'tip_force:=true') as node:
         found = entities(node)
         parameters = list(node._parameters)
     # What every managed node of ROS has.
@@ -50,6 +53,8 @@ def test_the_reference_names_everything_the_node_has():
             written = name if name == '/diagnostics' else name.removeprefix('/')
             assert f'`{written}`' in REFERENCE
     for name in parameters:
+        if name.startswith('cables.'):
+            name = f'cables.NAME.{name.rpartition(".")[2]}'
         if not name.startswith(('qos_overrides.', 'use_sim_time', 'start_type_description')):
             assert f'`{name}`' in REFERENCE, name
 

@@ -30,6 +30,8 @@ class ArmEstimate(AnyEstimate):
         The model's answer.
     """
 
+    has_parts = True
+
     def __init__(self, state: ArmState, known: KnownLoad, settings: ArmSettings) -> None:
         self.state = state
         self.known = known

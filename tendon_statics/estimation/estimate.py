@@ -6,7 +6,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from enum import Enum
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from ..physics import Equilibrium, JointDesign, Load, Regime
 from ..physics.kept import kept
@@ -78,6 +78,9 @@ class AnyEstimate(ABC):
     """
 
     known: KnownLoad
+
+    has_parts: ClassVar[bool] = False
+    """Whether it is of several joints, so that the summary says which asks for attention"""
 
     @property
     @abstractmethod

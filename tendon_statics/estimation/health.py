@@ -207,6 +207,11 @@ class Health:
         findings += [f'{remark.value}{self._place_of(remark)}' for remark in self._at_a_look]
         return findings
 
+    @property
+    def worst_part(self) -> str:
+        """The summary of the newest tensions, where it says which joint asks for attention."""
+        return self.summary if self.newest is not None and self.newest.has_parts else ''
+
     def _place_of(self, remark: Remark) -> str:
         """Say of which part the newest estimate has a remark, if it has several parts."""
         place = '' if self.newest is None else self.newest.place_of(remark)

@@ -16,7 +16,8 @@ from ..files.arm_parameters import cable_prefix
 from .arm_services import offer_arm_services
 from .arm_tip_force import ArmTipForces
 from .inputs.measured_joints import measured_joints
-from .inputs.sources import TensionSource, arm_tension_source
+from .inputs.sources import arm_tension_source
+from .inputs.tension_source import TensionSource
 from .managed_estimator import ManagedEstimator
 from .outputs.arm_finding import arm_topics
 from .outputs.arm_markers import arm_markers

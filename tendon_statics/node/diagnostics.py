@@ -60,6 +60,9 @@ def status_of(
     warnings += findings
     if warnings:
         level = max(level, Level.WARN)
+    said = found + warnings
+    if said and health.worst_part:
+        said.append(health.worst_part)
     values = {
         **health.values(),
         **{f'publishers on {topic}': str(count) for topic, count in publishers.items()},
@@ -68,7 +71,7 @@ def status_of(
     return DiagnosticStatus(
         level=_LEVELS[level],
         name=name,
-        message=note or '; '.join(found + warnings) or health.summary or 'no tensions came yet',
+        message=note or '; '.join(said) or health.summary or 'no tensions came yet',
         hardware_id=hardware_id,
         values=[KeyValue(key=key, value=value) for key, value in values.items()],
     )

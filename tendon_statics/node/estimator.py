@@ -14,7 +14,8 @@ from ..estimation.methods import METHODS
 from ..estimation.settings import Settings
 from ..estimation.unit_estimator import UnitEstimator
 from ..physics import BendAngleError
-from .inputs.sources import TensionSource, tension_source
+from .inputs.sources import tension_source
+from .inputs.tension_source import TensionSource
 from .managed_estimator import ManagedEstimator
 from .outputs import messages
 from .outputs.committed import CommittedOutput

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import time
-from abc import abstractmethod
-from collections.abc import Callable, Mapping
-from typing import Any, Generic, TypeVar
 
 from builtin_interfaces.msg import Time
 from rclpy.clock import JumpThreshold
 from rclpy.duration import Duration
-from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.time import Time as ClockTime
 
-from ..estimation.estimate import AnyEstimate, KnownLoad
+from ..estimation.estimate import KnownLoad
 from ..estimation.health import Health
-from ..estimation.measuring import Measuring
 from ..estimation.reading_estimator import ReadingEstimator
 from ..estimation.regimes import INVALID
 from ..files.parameter_kinds import SettingError
@@ -23,26 +19,21 @@ from ..physics import BendAngleError
 from ..tensions.reason import ReadingError, Reason
 from .diagnostics import Reports
 from .inputs.load import LoadInputs
-from .inputs.sources import Reading, TensionSource
 from .inputs.stamp_order import nanoseconds
 from .inputs.subscriptions import Subscriptions
-from .outputs.publishers import Outputs
+from .inputs.tension_source import Reading
+from .kind_of_estimator import E, KindOfEstimator, S
 from .parameters.changes import Changes
-from .parameters.table import NodeTable
 from .parameters.unknown import warn_of_unknown_parameters
 from .program import StartError
 from .services import Services
 from .watchdog import Watchdog, throttled
-from .wiring import CommonWiring
 
 UNCONFIGURED, INACTIVE, ACTIVE, FINALIZED = 'unconfigured', 'inactive', 'active', 'finalized'
 """States of a managed node"""
 
-S = TypeVar('S', bound=Measuring)
-E = TypeVar('E', bound=AnyEstimate)
 
-
-class ManagedEstimator(LifecycleNode, Generic[S, E]):
+class ManagedEstimator(KindOfEstimator[S, E]):
     """Publishes what every set of tensions that arrives says of a unit, or of an arm.
 
     What it knows of that is in a `ReadingEstimator`, which needs no ROS; here it is connected, and
@@ -56,15 +47,13 @@ class ManagedEstimator(LifecycleNode, Generic[S, E]):
         Of the node.
     """
 
-    table: NodeTable[S]
     health: Health
 
     def __init__(self, name: str) -> None:
         super().__init__(name)
         self.core: ReadingEstimator[S, E]  # from configuring on
         self.rejected_corrections = 0
-        self.left_out: set[str] = set()
-        """Parameters of the design that nobody has set"""
+        self.left_out = set()
         self.state_label = UNCONFIGURED
         self._has_run = False
 
@@ -99,57 +88,6 @@ class ManagedEstimator(LifecycleNode, Generic[S, E]):
             for trigger in (self.trigger_configure, self.trigger_activate):
                 if trigger() != TransitionCallbackReturn.SUCCESS:
                     raise StartError('a transition of its lifecycle failed')
-
-    # What differs between a unit and an arm
-
-    @abstractmethod
-    def _declare(self) -> None:
-        """Declare the parameters; set `table`, and what `wiring` returns."""
-
-    @property
-    @abstractmethod
-    def wiring(self) -> CommonWiring:
-        """How it is connected."""
-
-    def _new_health(self, *, counts_lost: bool) -> Health:
-        return Health(counts_lost=counts_lost)
-
-    @abstractmethod
-    def _new_outputs(self) -> Outputs:
-        """Make what publishes estimates."""
-
-    @abstractmethod
-    def _new_source(self, max_skew: Callable[[], float]) -> TensionSource:
-        """Make what tensions come from."""
-
-    @abstractmethod
-    def _connect(self) -> None:
-        """Add what else it listens to, publishes and answers."""
-
-    @abstractmethod
-    def _new_core(self, settings: S) -> ReadingEstimator[S, E]:
-        """Make what estimates with settings."""
-
-    @property
-    @abstractmethod
-    def bias_parameters(self) -> Mapping[str, str]:
-        """Cable, as people know it → the parameter of its bias, in the order of the cables."""
-
-    def values_of_settings(self) -> dict[str, Any]:
-        """What ``~/solve_latest`` says of the settings."""
-        return {}
-
-    def values_to_report(self) -> dict[str, str]:
-        """What ``/diagnostics`` has of this kind of node alone."""
-        return {}
-
-    def _publish_more(self, estimate: E, measured: float, stamp: Callable[[], Time]) -> None:
-        """Publish what is not of every node."""
-
-    def _forget_more(self) -> None:
-        """Forget what was measured while the node was active before."""
-
-    # Of all
 
     @property
     def executor_kind(self) -> str:

@@ -10,7 +10,7 @@ from rclpy.clock import Clock, ClockType
 
 from ..estimation.regimes import STALE
 from .diagnostics import Reports
-from .inputs.sources import TensionSource
+from .inputs.tension_source import TensionSource
 from .outputs.publishers import Outputs
 
 if TYPE_CHECKING:

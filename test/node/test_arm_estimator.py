@@ -5,6 +5,7 @@ import json
 import math
 import random
 import time
+from contextlib import ExitStack
 
 import pytest
 from arm_client import ArmClient, array, same, values
@@ -42,17 +43,14 @@ def session():
 @pytest.fixture(scope='module')
 def shared_arm():
     """A client and, in a domain that is theirs, an estimator of the installed arm."""
-    with free_domain() as domain:
+    with free_domain() as domain, ExitStack() as stack:
+        # Only they: what a test starts beside them starts in the domain of the run.
         with in_domain(domain):
-            stack = spinning(lambda context: ArmClient(context, ARM.cable_names))
-            client = stack.__enter__()
-            running = client.estimator(*LONG)
-            running.__enter__()
-        try:
-            yield client
-        finally:
-            running.__exit__(None, None, None)
-            stack.__exit__(None, None, None)
+            client = stack.enter_context(
+                spinning(lambda context: ArmClient(context, ARM.cable_names))
+            )
+            stack.enter_context(client.estimator(*LONG))
+        yield client
 
 
 @pytest.fixture
@@ -283,6 +281,7 @@ def test_a_slack_cable_casts_doubt_on_all_joints_until_they_are_measured(arm):
     assert all(map(math.isnan, unsure.bend_angle_stddevs))
     status = arm.status(WARN, 'may have moved unseen')
     assert ', '.join(NAMES) in status.message
+    assert 'worst is arm_joint_' in status.message
     arm.measure(**dict.fromkeys(NAMES, 0.0))
     wait_for('assured angles', lambda: all(arm.answer(EVEN).angles_assured))
 

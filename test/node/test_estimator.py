@@ -387,7 +387,7 @@ def test_a_signal_ends_it_within_two_seconds_with_exit_code_0(number, under_load
     [
         'tendon_statics.node.program.import_module',
         'rclpy.init',
-        'tendon_statics.node.outputs.publishers.Outputs._publisher',
+        'tendon_statics.node.outputs.publishers.output_publisher',
     ],
     ids=lambda moment: moment.rsplit('.', 1)[-1],
 )

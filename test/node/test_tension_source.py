@@ -14,10 +14,10 @@ from std_msgs.msg import Float64MultiArray, Header
 from tendon_statics.node.inputs.sources import (
     ArraySource,
     JointStateSource,
-    Reading,
     WrenchPairSource,
 )
 from tendon_statics.node.inputs.stamp_order import StampOrder, nanoseconds
+from tendon_statics.node.inputs.tension_source import Reading
 from tendon_statics.tensions.cable_scale import CableScale, scaled
 from tendon_statics.tensions.pairing import MOST_WAITING
 from tendon_statics.tensions.reason import Reason

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable
 from functools import partial
-from typing import Any, NamedTuple
 
-from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Vector3, WrenchStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
 from ...tensions.named_values import cable_values
-from ...tensions.pairing import Pairing, Part
-from ...tensions.reason import Fault, Reason
+from ...tensions.reason import Reason
 from ..parameters.estimator import Wiring
-from .stamp_order import StampOrder, nanoseconds, seconds
+from .joining import JoiningSource
+from .tension_source import Deliver, Drop, Reading, TensionSource
 
 COMPONENTS: dict[str, Callable[[Vector3], float]] = {
     'z': lambda force: force.z,
@@ -25,68 +23,6 @@ COMPONENTS: dict[str, Callable[[Vector3], float]] = {
     'norm': lambda force: math.hypot(force.x, force.y, force.z),
 }
 """Of the force of a load cell"""
-
-
-class Reading(NamedTuple):
-    """What was measured of all cables at one time."""
-
-    values: Sequence[float]
-    """In the driver's unit, in the order of the cables: of a unit l and s"""
-    stamp: Time | None = None
-    """None if the message has none, or 0, which means the same"""
-
-
-Deliver = Callable[[Reading], None]
-Drop = Callable[[Reason, str], None]
-Takes = Callable[[Any, int], None]
-"""Takes a message, and when it arrived in ns since 1970"""
-
-
-class TensionSource:
-    """Turns messages of one kind into readings.
-
-    Attributes
-    ----------
-    inputs : dict
-        Topic → type of its messages and what takes one, with its time of arrival.
-
-    Parameters
-    ----------
-    deliver, drop : callable
-        Take what comes of the messages: a reading, or the reason for none with a text.
-    stamped : str
-        What has stamps of an order of its own.
-    """
-
-    inputs: dict[str, tuple[type, Takes]]
-    kind: str
-    """As the parameter ``tension_source`` has it"""
-    has_one_publisher = True
-    """Whether each topic is to have one publisher alone"""
-
-    def __init__(self, deliver: Deliver, drop: Drop, *stamped: str) -> None:
-        self._deliver = deliver
-        self._drop = drop
-        self._orders = {what: StampOrder() for what in stamped}
-
-    def is_foreign(self, _message: Any) -> bool:
-        """Whether a message is about no cable, so that it is none of ours."""
-        return False
-
-    def loosen(self) -> None:
-        """Take it that the driver may have begun anew, with an earlier clock, until `tighten`."""
-        for order in self._orders.values():
-            order.is_loose = True
-
-    def tighten(self) -> None:
-        """Take it that the stamps are sound again, since tensions came of them."""
-        for order in self._orders.values():
-            order.is_loose = False
-
-    def forget(self) -> None:
-        """Forget what came before, for the clock was set back or the node was inactive."""
-        for order in self._orders.values():
-            order.forget()
 
 
 class ArraySource(TensionSource):
@@ -116,76 +52,6 @@ class ArraySource(TensionSource):
                 Reason.WRONG_LENGTH,
                 f'{len(values)} values came, [{", ".join(self._needed)}] is needed',
             )
-
-
-class JoiningSource(TensionSource):
-    """What joins messages of some cables each, by their stamps, or by arrival without them.
-
-    The reading has the latest of the stamps. One message has one partner of each other kind, the
-    nearest that is free when the last of them comes.
-
-    Parameters
-    ----------
-    cable_names : tuple of str
-        What the cables are called.
-    max_skew : callable
-        Returns the most that two times of a reading may differ, in s.
-    """
-
-    def __init__(
-        self,
-        deliver: Deliver,
-        drop: Drop,
-        cable_names: tuple[str, ...],
-        max_skew: Callable[[], float],
-    ) -> None:
-        super().__init__(deliver, drop, *cable_names)
-        self._cable_names = cable_names
-        self._of_cable = tuple(self._orders.values())
-        self._max_skew = max_skew
-        self._pairing = Pairing(len(cable_names), max_skew, self._deliver_whole, self._drop_part)
-
-    def forget(self) -> None:
-        """As in `TensionSource`; what still waits is dropped."""
-        super().forget()
-        self._pairing.forget()
-
-    def _take_part(self, values: Mapping[int, float], stamp: Time, arrival: int) -> None:
-        """Take the values of some cables, by their place among the names."""
-        stamp_or_none, fault = self._checked(stamp, values)
-        if fault:
-            self._drop(fault[0], f'{self._named(values)}: {fault[1]}')
-            return
-        time = arrival if stamp_or_none is None else nanoseconds(stamp)
-        self._pairing.take(Part(time, values, stamp_or_none))
-
-    def _checked(self, stamp: Time, cables: Iterable[int]) -> tuple[Time | None, Fault | None]:
-        """Return a stamp, None if it is none, and what is against it in the order of its cables.
-
-        A stamp of 0 is none, unless the driver has stamped before.
-        """
-        orders = [self._of_cable[cable] for cable in cables]
-        if not (stamp.sec or stamp.nanosec or any(order.has_begun for order in orders)):
-            return None, None
-        time = nanoseconds(stamp)
-        objections = [order.objection(time) for order in orders]
-        return stamp, next(filter(None, objections), None)
-
-    def _deliver_whole(self, parts: list[Part]) -> None:
-        latest = max(parts, key=lambda part: part.time)
-        values = {cable: value for part in parts for cable, value in part.values.items()}
-        in_order = tuple(values[cable] for cable in range(len(values)))
-        self._deliver(Reading(in_order, latest.source))
-
-    def _drop_part(self, part: Part) -> None:
-        self._drop(
-            Reason.UNPAIRED,
-            f'{self._named(part.values)} of {seconds(part.time)} s has no partner of its own '
-            f'within max_skew, {self._max_skew():g} s',
-        )
-
-    def _named(self, cables: Iterable[int]) -> str:
-        return ', '.join(self._cable_names[cable] for cable in cables)
 
 
 class JointStateSource(JoiningSource):

@@ -16,7 +16,7 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 from ...estimation.health import Health
 from ..overridable_qos import OVERRIDABLE
 from .lost_messages import LostMessages
-from .sources import TensionSource
+from .tension_source import TensionSource
 from .waiting_messages import waiting_messages
 
 INPUT_DEPTH = 1000
