@@ -8,6 +8,7 @@ the filter runs the tracker that believes each sample.
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import math
 import random
 import secrets
@@ -23,7 +24,20 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test/support'))
 
 from arm_brute import random_arm, random_load, random_pull
 
-from tendon_statics import Arm, ArmError, ArmFilter, ArmFilterState, ArmTracker, Load, TensionError
+from tendon_statics import (
+    Arm,
+    ArmError,
+    ArmFilter,
+    ArmFilterState,
+    ArmTracker,
+    ArmUnit,
+    Cable,
+    Load,
+    Regime,
+    TensionError,
+    default_design_path,
+    load_design,
+)
 from tendon_statics.command_line.tables import markdown_table
 
 NOISES = (0.005, 0.01, 0.02)
@@ -134,6 +148,29 @@ def _row(state: ArmFilterState, truth, believed, committed, truths) -> list[floa
     ]
 
 
+def costs(units: int, rate: float) -> tuple[str, ...]:
+    """CPU times in ms of an update of arms alike: all at rest, some slipping, and the worst."""
+    design = dataclasses.replace(
+        load_design(default_design_path()), friction_coefficient=0.3, stiffness=0.05
+    )
+    arm = Arm([ArmUnit(design, 0.02)] * units, [Cable('l', 'l', units), Cable('s', 's', units)])
+    found, random = ArmFilter(arm, tension_stddev=0.01), np.random.default_rng(1)
+    resting, slipping = [], []
+    for index in range(int(6.0 * rate)):
+        strong = 1.0 + 0.3 * min(index / rate, 2.0 + max(0.0, index / rate - 4.0))
+        pull = np.array([1.0, strong]) + random.normal(0.0, 0.01, 2)
+        begin = time.process_time()
+        state = found.update(dict(zip('ls', pull.tolist(), strict=True)), index / rate)
+        took = 1e3 * (time.process_time() - begin)
+        slips = any(part[Regime.SLIPPING] > 0.0 for part in state.regime_probabilities)
+        (slipping if slips else resting).append(took)
+    return (
+        *(str(units), f'{np.median(resting):.1f}'),
+        *(f'{share:.1f}' for share in np.percentile(slipping, [50.0, 90.0])),
+        f'{max(resting + slipping):.0f}',
+    )
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Measure and print the table."""
     parser = argparse.ArgumentParser(description='Measure ArmFilter on random sessions.')
@@ -143,6 +180,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument('--seed', type=int, help='default: a fresh one')
     options = parser.parse_args(arguments)
     seed = secrets.randbits(32) if options.seed is None else options.seed
+    print(f'seed {seed}', file=sys.stderr)
     count = int(options.seconds * options.rate)
     rows, everything = [], []
     for units in UNITS:
@@ -158,7 +196,9 @@ def main(arguments: list[str] | None = None) -> int:
     header = ('units:', 'covered [%]:', 'least [%]:', 'tip covered [%]:', 'width [deg]:')
     more = ('off [%]:', 'off, committed [%]:', 'off, tracker [%]:', 'tip off [mm]:')
     last = ('tip off, tracker [mm]:', 'pressure covered [%]:', 'median, mean, p90 [ms]:')
-    print(markdown_table((*header, *more, *last), rows))
+    print(markdown_table((*header, *more, *last), rows), flush=True)
+    header = ('units:', 'rests [ms]:', 'slips, median [ms]:', 'nine tenths [ms]:', 'worst [ms]:')
+    print('\n' + markdown_table(header, [costs(units, options.rate) for units in (1, 2, 5, 10)]))
     print(f'\n{len(everything)} arms, {options.seconds:g} s at {options.rate:g} Hz, seed {seed}')
     return 0
 

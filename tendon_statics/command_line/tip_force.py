@@ -103,7 +103,7 @@ def run(options: argparse.Namespace) -> None:
         ('friction', _friction_text(options)),
         ('explained by', intervals_text(exact.intervals)),
         (f'at {100.0 * noisy.level:g} %', f'{intervals_text(noisy.intervals)}, with {noise}'),
-        ('free tip', f'{_percent(noisy.probability_free)} probable'),
+        ('free tip', f'{percent(noisy.probability_free)} probable'),
     ]
     if noisy.force is not None and noisy.force_stddev is not None:
         facts.append(('force', f'{noisy.force:+.4f} N, deviation {noisy.force_stddev:.4f} N'))
@@ -143,5 +143,6 @@ def _friction_text(options: argparse.Namespace) -> str:
     return 'anything up to its limit'
 
 
-def _percent(probability: float) -> str:
+def percent(probability: float) -> str:
+    """Say a probability in percent."""
     return f'{100.0 * probability:.3g} %'

@@ -44,6 +44,11 @@ def add_line_options(parser: argparse.ArgumentParser, *, required: bool) -> None
         help="where it acts along the unit's axis, in m from the centre of the ball; default: "
         'tip_distance of the design file',
     )
+    add_level_option(group)
+
+
+def add_level_option(group: argparse._ArgumentGroup) -> None:
+    """Add ``--level``."""
     group.add_argument(
         '--level',
         type=_level,
@@ -54,12 +59,14 @@ def add_line_options(parser: argparse.ArgumentParser, *, required: bool) -> None
     )
 
 
-def add_bend_angle_stddev_option(parser: argparse.ArgumentParser) -> None:
+def add_bend_angle_stddev_option(
+    parser: argparse.ArgumentParser, default: float = BEND_ANGLE_STDDEV_DEG
+) -> None:
     """Add ``--bend-angle-stddev-deg``."""
     parser.add_argument(
         '--bend-angle-stddev-deg',
         type=deviation,
-        default=BEND_ANGLE_STDDEV_DEG,
+        default=default,
         metavar='DEG',
         help='standard deviation of the measured angle in degrees; default: %(default)s',
     )

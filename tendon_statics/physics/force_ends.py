@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
+from typing import Protocol
 
 from .admissible import Interval
-from .force_scores import NORMAL, Doubt
+from .force_scores import NORMAL
 from .pushed_unit import BOTH_SIDES
 
 STEP = 1e-6
@@ -23,8 +24,18 @@ TOLERANCE = 1e-7
 """Share of a force to which an end under noise is found"""
 
 
+class Doubtful(Protocol):
+    """How much speaks against a force; as `Doubt` says it."""
+
+    def bounds(self, force: float) -> tuple[float, float]:
+        """Return x and y of the doubt Φ(x) − Φ(y)."""
+
+    def beyond(self, force: float, level: float) -> float:
+        """Return by how much the doubt, as a score, is beyond that of a level."""
+
+
 def forces_within(
-    doubt: Doubt, cuts: Sequence[float], scale: float, level: float
+    doubt: Doubtful, cuts: Sequence[float], scale: float, level: float
 ) -> list[Interval]:
     """Return the forces with a doubt up to a level.
 

@@ -80,7 +80,7 @@ class ForceScores:
         variance = self._noise.tension_stddev**2 * (behind * behind + before * before)
         variance += (self._noise.bend_angle_stddev * point.slope) ** 2
         variance += self._of_design(lambda other: other.excess(force, side), unit)
-        return _score(float(point.excess), variance)
+        return score(float(point.excess), variance)
 
     def lift(self, force: float) -> float:
         """Return by how many deviations the tensions fall short of seating the joint."""
@@ -93,7 +93,7 @@ class ForceScores:
             )
             variance += (noise.bend_angle_stddev * (after - before) / (2.0 * STEP)) ** 2
         variance += self._of_design(lambda other: other.lift(force), unit)
-        return _score(unit.lift(force), variance)
+        return score(unit.lift(force), variance)
 
     def _seated(self, force: float) -> PushedUnit:
         """Return the unit, with both tensions raised by as much as seats it, if anything."""
@@ -122,7 +122,7 @@ class ForceScores:
         )
 
 
-def _score(value: float, variance: float) -> float:
+def score(value: float, variance: float) -> float:
     """Return a value in deviations, infinite where it is exact."""
     if variance > 0.0:
         return value / math.sqrt(variance)

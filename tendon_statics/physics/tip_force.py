@@ -156,14 +156,10 @@ def tip_force(
     tensions = check_taut(check_tensions(tension_l, tension_s))
     angle = check_bend_angle(design, bend_angle)
     push = push_along(direction, distance)
-    _check_deviation('tension_stddev', tension_stddev, 'N')
-    _check_deviation('bend_angle_stddev', bend_angle_stddev, 'rad')
-    if not 0.5 <= level < 1.0:
-        raise ValueError(f'level is {level!r}, allowed is 0.5 to below 1')
+    noise = checked_noise(tension_stddev, bend_angle_stddev, level, design_covariance)
     if slipping and slipping not in SIDES:
         raise ValueError(f"slipping is {slipping!r}, allowed is 's', 'l' or empty")
     unit = PushedUnit(design, tensions, angle, load.on(design), push)
-    noise = Noise(tension_stddev, bend_angle_stddev, design_covariance)
     if slipping:
         return _at_limit(unit, load, noise, level, SIDES[slipping])
     sides = (-math.copysign(1.0, angle),) if at_stop else BOTH_SIDES
@@ -201,6 +197,26 @@ def _at_limit(unit: PushedUnit, load: Load, noise: Noise, level: float, side: fl
         slope = (after - before) / (2.0 * step)
         stddev = 1.0 / abs(slope) if slope else None
     return TipForce(intervals, level, doubt.probability(0.0), True, force, stddev)
+
+
+def checked_noise(
+    tension_stddev: float,
+    bend_angle_stddev: float,
+    level: float,
+    design_covariance: DesignUncertainty | None = None,
+) -> Noise:
+    """Return the noise of a state, if it and the level that is asked for are allowed.
+
+    Raises
+    ------
+    ValueError
+        If a deviation or the level is not.
+    """
+    _check_deviation('tension_stddev', tension_stddev, 'N')
+    _check_deviation('bend_angle_stddev', bend_angle_stddev, 'rad')
+    if not 0.5 <= level < 1.0:
+        raise ValueError(f'level is {level!r}, allowed is 0.5 to below 1')
+    return Noise(tension_stddev, bend_angle_stddev, design_covariance)
 
 
 def _check_deviation(name: str, value: float, unit: str) -> None:

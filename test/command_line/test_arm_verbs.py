@@ -83,6 +83,25 @@ def test_tip_force_prints_the_set_of_the_library():
     assert ray['intervals'][0][1] is ray['bounding_joints'][0][1] is None
 
 
+def test_tip_force_widens_the_set_by_noise_where_that_is_said():
+    noise = ('--tension-stddev', 0.02, '--bend-angle-stddev-deg', 0.5, '--level', 0.9)
+    found = json.loads(run('arm', *PUSHED, *noise, '--format', 'json').stdout)
+    expected = arm_tip_force(
+        *(ARM, EVEN),
+        bend_angles=[0.0] * 5,
+        direction=(1.0, 0.0),
+        tension_stddev=0.02,
+        bend_angle_stddev=math.radians(0.5),
+        level=0.9,
+    )
+    assert found['intervals'] == [list(one) for one in expected.intervals]
+    assert found['intervals'] != found['exact_intervals']
+    assert found['probability_free'] == expected.probability_free
+    text = run('arm', *PUSHED, *noise).stdout
+    assert 'at 90 %' in text
+    assert 'at 90 %' not in run('arm', *PUSHED).stdout
+
+
 def test_tip_force_says_which_joint_bounds_the_set_where():
     text = run('arm', *PUSHED[:-2], 0, -1).stdout
     assert 'explained by  any force from' in text

@@ -5,12 +5,12 @@ import math
 import random
 from collections import Counter
 from pathlib import Path
-from typing import NamedTuple
 
 import arm_brute
 import brute
 import numpy as np
 import pytest
+from arm_pushed import joints_held, random_pushed
 from designs import PRELIMINARY
 from thoroughness import some_of
 
@@ -38,66 +38,11 @@ GRID = np.linspace(-1.0, 1.0, 2001)[1:-1]
 EXACT = 1e-9
 
 
-class Pushed(NamedTuple):
-    """An arm at some angles, and a line along which it is pushed."""
-
-    arm: Arm
-    load: Load
-    tensions: dict
-    angles: list
-    direction: np.ndarray
-
-    @property
-    def scale(self):
-        """Of the forces, in N."""
-        return sum(np.max(one) for one in self.tensions.values())
-
-    def found(self, **changed):
-        asked = {'bend_angles': self.angles, 'load': self.load, **changed}
-        tensions = asked.pop('tensions', self.tensions)
-        direction = tuple(asked.pop('direction', self.direction))
-        return arm_tip_force(self.arm, tensions, direction=direction, **asked)
-
-
-def random_pushed(draw, friction=True):
-    arm = arm_brute.random_arm(draw, friction=friction)
-    load = arm_brute.random_load(draw)
-    tensions = arm_brute.random_pull(draw, arm, load)
-    for pair in range(len(arm.cables) // 2):  # half of them nearly even, which more joints hold
-        if draw.random() < 0.7:
-            total = tensions[f'l{pair}'] + tensions[f's{pair}']
-            share = draw.uniform(0.45, 0.55)
-            tensions[f'l{pair}'], tensions[f's{pair}'] = total * share, total * (1.0 - share)
-    bent = draw.choice((1.0, 0.3, 0.03))
-    angles = [bent * draw.uniform(-stop, stop) for stop in arm.stops]
-    # Anywhere, across the base, along the last unit.
-    of = draw.choice((draw.uniform(-math.pi, math.pi), 0.5 * math.pi, sum(angles)))
-    return Pushed(arm, load, tensions, angles, np.array([math.sin(of), math.cos(of)]))
-
-
 @pytest.fixture(scope='module')
 def pushed():
     """Random arms at random angles, and lines along which they are pushed."""
     draw = random.Random(1818)
     return [random_pushed(draw) for _ in range(some_of(COUNT))]
-
-
-def joints_held(case, force):
-    """Whether friction can hold each joint under forces in N, from vectors: a row for each."""
-    reference = arm_brute.BruteArm(case.arm, case.angles)
-    pulls = reference.pulls(case.tensions, case.angles)
-    push = force * case.direction[0], force * case.direction[1]
-    found = []
-    for joint, design in enumerate(case.arm.designs):
-        moment, *state = reference.at_joint(joint, case.load, case.angles, pulls, push)
-        total, axial, across = state
-        with np.errstate(all='ignore'):
-            is_held = brute.seats(design, total, axial, across)
-            for side in (1.0, -1.0):
-                capacity = brute.capacity_under(design, total, axial, side * across)
-                is_held &= side * moment <= capacity
-        found.append(is_held)
-    return np.array(found)
 
 
 def inside(intervals, force, slack=0.0):
@@ -433,3 +378,83 @@ def test_the_set_of_a_joint_next_to_the_tip_is_that_of_its_unit_alone():
         *(PRELIMINARY, 1.0, 1.9), bend_angle=0.1, direction=(1.0, 0.0), distance=0.02
     )
     assert found.joint_intervals[1] == single
+
+
+NOISE = {'tension_stddev': 0.02, 'bend_angle_stddev': 0.01}
+
+
+def test_noise_widens_the_set_and_less_for_a_lower_level(pushed):
+    widened = 0
+    for case in pushed[: some_of(40)]:
+        exact, likely, sure = (
+            case.found(**more) for more in ({}, {**NOISE, 'level': 0.6}, {**NOISE, 'level': 0.99})
+        )
+        assert likely.joint_intervals == exact.joint_intervals
+        for narrow, wide in ((exact, likely), (likely, sure)):
+            for low, high in narrow.intervals:
+                for force in np.clip([low, high], -1e4, 1e4).tolist():
+                    assert inside(wide.intervals, force, 1e-6 * case.scale)
+                    widened += 1
+        assert 0.0 <= sure.probability_free <= 1.0
+    assert widened > some_of(40)
+
+
+def test_hardly_any_noise_is_none():
+    draw = random.Random(7)
+    for _ in range(some_of(30)):
+        case = random_pushed(draw, friction=False)
+        exact = case.found()
+        found = case.found(tension_stddev=1e-9, bend_angle_stddev=1e-9)
+        for low, high in exact.intervals:
+            assert inside(found.intervals, 0.5 * (max(low, -1e4) + min(high, 1e4)))
+        if all(low < high for low, high in exact.intervals):
+            assert finite_ends(found.intervals) == pytest.approx(
+                finite_ends(exact.intervals), rel=1e-4, abs=1e-5
+            )
+            assert found.probability_free == pytest.approx(exact.probability_free, abs=1e-3)
+
+
+def test_with_noise_an_arm_of_one_is_the_single_unit():
+    for force in (0.0, 0.05):
+        arm = Arm([ArmUnit(PRELIMINARY, 0.03)], [Cable('l', 'l', 1), Cable('s', 's', 1)])
+        known = Load(tip_force=(force, 0.0))
+        found = arm_tip_force(
+            *(arm, {'l': 1.0, 's': 1.3}),
+            bend_angles=[0.2],
+            direction=(1.0, 0.0),
+            load=known,
+            **NOISE,
+        )
+        expected = tip_force(
+            *(PRELIMINARY, 1.0, 1.3),
+            bend_angle=0.2,
+            direction=(1.0, 0.0),
+            distance=0.03,
+            load=Load(tip_force=(force, 0.0), tip_distance=0.03),
+            **NOISE,
+        )
+        assert found.intervals == [pytest.approx(one, rel=1e-6) for one in expected.intervals]
+        assert found.probability_free == pytest.approx(expected.probability_free, rel=1e-6)
+        assert found.bounding_joints == [(1, 1)]
+
+
+@pytest.mark.parametrize('wrong', [{'tension_stddev': -1.0}, {'level': 1.0}])
+def test_deviations_and_levels_that_are_none_are_refused(pushed, wrong):
+    with pytest.raises(ValueError, match=next(iter(wrong))):
+        pushed[0].found(**wrong)
+
+
+def test_the_true_force_is_inside_at_the_stated_rate():
+    """A rough check; `tools/measure_arm_tip_force.py` has the figures."""
+    from measure_arm_tip_force import covered, true_arm, true_force
+
+    draw = random.Random(99)
+    results = []
+    for _ in range(some_of(40)):
+        case, intervals = true_arm(draw)
+        for _ in range(3):
+            force = true_force(draw, intervals, 'an end')
+            if force is not None:
+                results.append(covered(draw, case, force))
+    known = [one for one in results if one is not None]
+    assert np.mean(known) > 0.85

@@ -100,6 +100,14 @@ def test_what_is_new_is_provisional_and_what_is_a_lag_old_is_not():
     assert found.history(-1.0) is None
 
 
+def test_without_a_lag_every_sample_is_committed_at_once():
+    found = StickSlipFilter(HANGING, tension_stddev=NOISE, lag=0.0)
+    for number in range(3):  # each with no sample before it that counts
+        state = found.update(3.0, 3.5, float(number))
+        assert found.committed.time == state.time
+        assert found.committed.bend_angle == state.bend_angle
+
+
 def test_an_hour_below_slip_leaves_median_and_interval_where_they_were():
     """At 10 Hz, 5 % below slip; at the desk a part of the hour."""
     design, weak = UNITS['hanging']

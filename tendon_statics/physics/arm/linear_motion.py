@@ -13,8 +13,11 @@ Floats = NDArray[np.float64]
 MOST_GROWTH = 300.0
 """Exponent of what grows beyond which it is no more followed"""
 
-PARTS = 64
-"""Into which an interval of time is cut, to be looked at at once"""
+PARTS = np.arange(1, 65) / 64.0
+"""Of an interval of time, that are looked at at once"""
+
+DOUBLINGS = 2.0 ** np.arange(-3, 1000)
+"""Of the time in which the fastest goes by e"""
 
 
 class LinearMotion:
@@ -34,17 +37,16 @@ class LinearMotion:
     """
 
     def __init__(self, jacobian: Floats, velocity: Floats) -> None:
-        self.velocity = velocity
+        self.velocity, self._jacobian = velocity, jacobian
         self._rates, self._modes = np.linalg.eig(jacobian)
-        self._shares = np.linalg.solve(self._modes, velocity)
+        self._ways = np.linalg.solve(self._modes, velocity) / self._rates
 
     def at(self, times: Floats) -> tuple[Floats, Floats]:
         """Return way and velocity, a column for each time."""
-        growth = np.outer(self._rates, times)
+        growth = self._rates[:, None] * times
         growth = np.where(growth.real > MOST_GROWTH, MOST_GROWTH, growth)
-        ways = self._modes @ (np.expm1(growth) * (self._shares / self._rates)[:, None])
-        velocities = self._modes @ (np.exp(growth) * self._shares[:, None])
-        return ways.real, velocities.real
+        ways = (self._modes @ (np.expm1(growth) * self._ways[:, None])).real
+        return ways, self.velocity[:, None] + self._jacobian @ ways
 
     def first(self, happens: Callable[[Floats], NDArray[np.bool_]]) -> float:
         """Return the first time at which something happens, infinite if it has died away before.
@@ -58,7 +60,7 @@ class LinearMotion:
         """
         fast, slow = abs(self._rates).max(), abs(self._rates.real).min()
         count = int(math.log2(8.0 * fast / slow)) + 3
-        times = 2.0 ** np.arange(-3, count) / fast
+        times = DOUBLINGS[: count + 3] / fast
         start = 0.0
         for _ in range(2):
             found = happens(times)
@@ -67,5 +69,5 @@ class LinearMotion:
                 return float(times[-1]) if start else math.inf
             place = int(found.argmax())
             start, end = (times[place - 1] if place else start), times[place]
-            times = np.linspace(start, end, PARTS + 1)[1:]
+            times = start + (end - start) * PARTS
         return float(end)

@@ -116,18 +116,20 @@ def _changes(
     if motion.rubs:  # to where it is straight, if it has that before it
         to_go = np.where(sides * angles < 0.0, -sides * angles, to_go)
     resting = motion.resting()
-    lacking = np.array([excess for _, excess in resting.values()])
+    lacking = -np.array([excess for _, excess in resting.values()])[:, None]
     rows = motion.excess_rows({joint: side for joint, (side, _) in resting.items()})
+    sides, to_go = sides[:, None], to_go[:, None]
+    ahead = sides * jacobian
 
     def changes(times: Floats) -> NDArray[np.bool_]:
         ways, velocities = linear.at(times)
-        falls = sides[:, None] * velocities < -SMALL * abs(velocities).max(axis=0)
-        falls &= sides[:, None] * (jacobian @ velocities) < 0.0
-        arrives = sides[:, None] * ways >= to_go[:, None]
-        found: NDArray[np.bool_] = (falls | arrives).any(axis=0)
+        falls = sides * velocities < -SMALL * abs(velocities).max(axis=0)
+        falls &= ahead @ velocities < 0.0
+        falls |= sides * ways >= to_go
+        found: NDArray[np.bool_] = falls.any(axis=0)
         found |= abs(ways).max(axis=0) > 2.0 * NEAR
         if resting:
-            found |= (lacking[:, None] + rows @ ways > 0.0).any(axis=0)
+            found |= (rows @ ways > lacking).any(axis=0)
         return found
 
     return changes

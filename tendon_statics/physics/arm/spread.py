@@ -43,23 +43,22 @@ def spread_after(excess: Excess, settled: Settled, before: Floats) -> Floats:
     if not at:
         return after
     rest = [joint for joint in range(count) if joint not in at]
-    jacobian = excess.jacobian(look, settled.at_limit, at)
-    by_rest = excess.jacobian(look, settled.at_limit, rest)
+    by_all = excess.jacobian(look, settled.at_limit, list(range(count)))
     by_tension = np.array(
         [excess.by_base_tensions(joint, side, look) for joint, side in settled.at_limit.items()]
     )
     try:
-        inverse = -np.linalg.inv(jacobian)
+        inverse = -np.linalg.inv(by_all[:, at])
     except np.linalg.LinAlgError:
-        inverse = np.full(jacobian.shape, math.nan)
+        inverse = np.full((len(at), len(at)), math.nan)
     of_tension = inverse @ by_tension
     found = of_tension @ of_tension.T
     if rest:
-        of_rest = inverse @ by_rest
-        kept = after[np.ix_(rest, rest)]
-        across = of_rest @ kept
+        of_rest = inverse @ by_all[:, rest]
+        across = of_rest @ after[rest][:, rest]
         found = found + across @ of_rest.T
-        after[np.ix_(at, rest)] = across
-        after[np.ix_(rest, at)] = across.T
-    after[np.ix_(at, at)] = found
+        for joint, row in zip(at, across, strict=True):
+            after[joint, rest] = after[rest, joint] = row
+    for joint, row in zip(at, found, strict=True):
+        after[joint, at] = row
     return after

@@ -12,11 +12,15 @@ from typing import Any, NamedTuple
 
 from ..admissible import Interval
 from ..errors import TensionError
+from ..force_ends import forces_within
+from ..force_scores import Doubt
 from ..load import UPRIGHT, Load, push_along
 from ..pushed_unit import BOTH_SIDES, PushedUnit
+from ..tip_force import checked_noise
 from .arm import Arm
-from .cables import AtJoints, transmitted
+from .cables import AtJoints, crossings, transmitted
 from .carried import Carried, frozen_loads
+from .force_doubt import ArmDoubt, JointScores, gains_at
 from .joints import check_bend_angles, check_joint, taut_pairs
 
 EXACT = 1e-9
@@ -36,7 +40,12 @@ class ArmTipForce(NamedTuple):
     """For each interval the joints, counted from 1 at the base, that bound its lower and its upper
     end; None for an infinite end"""
     joint_intervals: list[list[Interval]]
-    """Forces with which friction can hold each joint by itself, from the base on"""
+    """Forces with which friction can hold each joint by itself, from the base on; exact, for
+    readings as they are"""
+    level: float = 0.95
+    """Probability with which the intervals hold the true force, where there is noise"""
+    probability_free: float = math.nan
+    """Probability that nothing at the tip explains the state"""
 
 
 def arm_tip_force(
@@ -47,12 +56,17 @@ def arm_tip_force(
     direction: Sequence[float],
     load: Load = UPRIGHT,
     at_stop: Collection[int] = (),
+    tension_stddev: float = 0.0,
+    bend_angle_stddev: float = 0.0,
+    level: float = 0.95,
 ) -> ArmTipForce:
     """Return the forces at the tip with which friction can hold an arm where it is.
 
     Each end is a force at which a joint is about to slip, or the limit of those that leave it
-    seated; which joint that is comes along. Exact, in closed form. For an arm of one unit it is
-    `tip_force_intervals` at the distance of the unit's length, to the last bit.
+    seated; which joint that is comes along. Without noise exact, in closed form. With noise the
+    ends are widened so that the true force is inside at the rate `level` if it is at an end of the
+    true set, else more often; see `force_doubt`. For an arm of one unit it is `tip_force` at the
+    distance of the unit's length.
 
     Parameters
     ----------
@@ -71,6 +85,12 @@ def arm_tip_force(
     at_stop : collection of int
         Joints, counted from 1 at the base, that may lean on their stop, each to the side of its
         angle. The stop carries what friction does not.
+    tension_stddev : float
+        Standard deviation of each cable's tension in N, all independent.
+    bend_angle_stddev : float
+        Standard deviation of each angle in rad, all independent.
+    level : float
+        Probability with which the intervals hold the true force, from 0.5 to below 1.
 
     Raises
     ------
@@ -83,26 +103,52 @@ def arm_tip_force(
         to act elsewhere than at the tip.
     ArmError
         If the arm has no such joint.
+    ValueError
+        If a deviation or the level is not allowed.
     """
     angles = check_bend_angles(arm, bend_angles)
-    pairs = taut_pairs(arm, _at_joints(arm, tensions, angles))
+    noise = checked_noise(tension_stddev, bend_angle_stddev, level)
+    at_joints = _at_joints(arm, tensions, angles)
+    pairs = taut_pairs(arm, at_joints)
     # What each unit carries, and what a newton at the tip adds to it.
-    loads = frozen_loads(Carried(arm, load).dead, angles)
-    pushes = frozen_loads([push_along(direction, unit.length) for unit in arm.units], angles)
-    leaning = {check_joint(arm, joint) for joint in at_stop}
-    of_joints = []
-    for index, angle in enumerate(angles):
-        unit = PushedUnit(arm.designs[index], pairs[index], angle, loads[index], pushes[index])
-        is_leaning = index in leaning
-        of_joints.append(
-            unit.forces_held((-math.copysign(1.0, angle),) if is_leaning else BOTH_SIDES)
-        )
-    common = _common(of_joints)
-    return ArmTipForce(
-        [(low, high) for (low, _), (high, _) in common],
-        [(before, after) for (_, before), (_, after) in common],
-        of_joints,
+    dead = Carried(arm, load).dead
+    push = [push_along(direction, unit.length) for unit in arm.units]
+    pairings = zip(
+        *(arm.designs, pairs, angles, frozen_loads(dead, angles), frozen_loads(push, angles)),
+        strict=True,
     )
+    units = [PushedUnit(*of_joint) for of_joint in pairings]
+    leaning = {check_joint(arm, joint) for joint in at_stop}
+    sides = [
+        (-math.copysign(1.0, angle),) if index in leaning else BOTH_SIDES
+        for index, angle in enumerate(angles)
+    ]
+    of_joints = [unit.forces_held(to) for unit, to in zip(units, sides, strict=True)]
+    common = _common(of_joints)
+    exact = [(low, high) for (low, _), (high, _) in common]
+    if noise.is_none:
+        return ArmTipForce(
+            exact,
+            [(before, after) for (_, before), (_, after) in common],
+            of_joints,
+            level,
+            float(any(low <= 0.0 <= high for low, high in exact)),
+        )
+    crossing = crossings(arm)
+    doubts = []
+    for index, to in enumerate(sides):
+        gains = gains_at(arm, crossing[index], at_joints, index)
+        scores = JointScores(units, index, dead, push, gains, load, noise)
+        doubts.append(Doubt(scores, to))
+    doubt = ArmDoubt(doubts)
+    cuts = {end for intervals in (exact, *of_joints) for pair in intervals for end in pair}
+    for unit, to in zip(units, sides, strict=True):
+        cuts |= {force for side in to for force in unit.forces_at_limit(side)}
+    found = forces_within(
+        doubt, [cut for cut in cuts if math.isfinite(cut)], max(u.total for u in units), level
+    )
+    bounding = [(doubt.bounding(low), doubt.bounding(high)) for low, high in found]
+    return ArmTipForce(found, bounding, of_joints, level, doubt.probability(0.0))
 
 
 def _common(of_joints: list[list[Interval]]) -> list[tuple[End, End]]:

@@ -71,7 +71,9 @@ def _after(arms: ManyArms, dead: Dead, tensions: Floats, place: Place) -> Place:
         return Place(place.angles, look.drawn.at)
     angles = place.angles.copy()
     at_joints = look.drawn.at
-    many = settle_many(pulled.part(which), place.angles[which])
+    if len(which) < len(angles):
+        look = pulled.part(which).look(place.angles[which])
+    many = settle_many(look)
     rested = which[many.at_rest]
     angles[rested] = many.angles[many.at_rest]
     if at_joints is not None:

@@ -77,13 +77,13 @@ class LinearMotions:
         at = np.full(count, -1)
         died = np.zeros(count, bool)
         for index in range(DOUBLINGS):
-            if index:
-                way, growth = self._ways[-1], self._growths[-1]
-                self._ways.append(way + times(growth, way))
-                self._growths.append(growth @ growth)
-            way = self._ways[-1]
-            velocity = self.velocity(way)
-            with np.errstate(all='ignore'):
+            with np.errstate(all='ignore'):  # what grows may overflow
+                if index:
+                    way, growth = self._ways[-1], self._growths[-1]
+                    self._ways.append(way + times(growth, way))
+                    self._growths.append(growth @ growth)
+                way = self._ways[-1]
+                velocity = self.velocity(way)
                 died |= (at < 0) & (np.abs(velocity).max(axis=1) <= enough)
                 at = np.where((at < 0) & ~died & happens(way, velocity), index, at)
             if ((at >= 0) | died).all():

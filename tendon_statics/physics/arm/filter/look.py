@@ -84,6 +84,7 @@ class Look:
             self.sides * (dead.sine * cosine + dead.cosine * sine),
         )
         self.capacity, self._slope = drawn.capacity(*self._ahead)
+        self._jacobian: tuple[Indices, Floats] | None = None
 
     @cached_property
     def excess(self) -> Floats:
@@ -114,6 +115,9 @@ class Look:
 
     def jacobian(self, by: Indices) -> Floats:
         """∂(M − side K)/∂θ in N m/rad of all joints, by some: shape ``(arms, joints, by)``."""
+        kept = self._jacobian
+        if kept is not None and np.array_equal(kept[0], by):
+            return kept[1]
         arms = self.arms
         x, z = self.pulled.dead.turning.real, self.pulled.dead.turning.imag
         cosine, sine = self._turns
@@ -124,6 +128,7 @@ class Look:
         found -= arms.springs[:, None] * (by == joints)
         if self.drawn.at is not None:
             found += self._by_cables(self.drawn.at)[:, :, by]
+        self._jacobian = by, found
         return found
 
     def _by_cables(self, at: Floats) -> Floats:

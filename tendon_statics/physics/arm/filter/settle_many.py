@@ -17,7 +17,7 @@ from ..motion import NOTHING, ROUNDING, TOLERANCE
 from ..steps import JUST_BEYOND, STRAIGHT
 from .glide import Moving, discs_bound, glide
 from .linear_motions import times
-from .look import Look, Pulled
+from .look import Look
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -44,9 +44,9 @@ class Settled(NamedTuple):
     """Which arms are; of the others it says nothing"""
 
 
-def settle_many(pulled: Pulled, angles: Floats) -> Settled:
-    """Let arms slip from bend angles in rad until they are at rest."""
-    motion = _Motions(pulled, angles)
+def settle_many(look: Look) -> Settled:
+    """Let arms slip from where they are until they are at rest."""
+    motion = _Motions(look)
     for _ in range(MOST_STEPS):
         which = np.flatnonzero(motion.moving.any(axis=1))
         if not len(which):
@@ -69,20 +69,24 @@ class _Motions:
         Which joints move, to `sides`, since they were at `begun`.
     """
 
-    def __init__(self, pulled: Pulled, angles: Floats) -> None:
-        self._pulled = pulled
-        look = pulled.look(angles)
-        self.angles, self.at_joints = angles.copy(), look.drawn.at
-        self.moving, self.sides, self.begun = look.beyond(), look.sides, angles.copy()
+    def __init__(self, look: Look) -> None:
+        self._pulled, angles = look.pulled, look.angles
+        self.angles, self.begun = angles.copy(), angles.copy()
+        self.at_joints = None if look.drawn.at is None else look.drawn.at.copy()
+        self.moving, self.sides = look.beyond(), look.sides.copy()
+        # With friction the tensions at the joints have to be remembered first.
+        self._at_first = look if self.at_joints is None else None
         self._share = np.full(angles.shape, ROUNDING)  # of K, by which M may exceed it
         self._step = np.full(len(angles), np.nan)
 
     def go_on(self, which: Indices) -> None:
         """Let some arms go on: to rest, if it is near, else by one step."""
-        pulled = self._pulled.part(which, self.at_joints)
         moving = self.moving[which]
-        look = pulled.look(self.angles[which], np.where(moving, self.sides[which], 0.0))
-        arms = Moving(pulled, look, moving, self.begun[which])
+        look, self._at_first = self._at_first, None
+        if look is None or len(which) < len(self.angles):
+            pulled = self._pulled.part(which, self.at_joints)
+            look = pulled.look(self.angles[which], np.where(moving, self.sides[which], 0.0))
+        arms = Moving(look.pulled, look, moving, self.begun[which])
         glided = glide(arms)
         rested = which[glided.at_rest]
         self._take(rested, glided.look, glided.at_rest)

@@ -1,0 +1,67 @@
+"""Random arms that are pushed at the tip, and which forces their joints hold, by brute force."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import arm_brute
+import brute
+import numpy as np
+
+from tendon_statics import Arm, Load, arm_tip_force
+
+
+class Pushed(NamedTuple):
+    """An arm at some angles, and a line along which it is pushed."""
+
+    arm: Arm
+    load: Load
+    tensions: dict
+    angles: list
+    direction: np.ndarray
+
+    @property
+    def scale(self):
+        """Of the forces, in N."""
+        return sum(np.max(one) for one in self.tensions.values())
+
+    def found(self, **changed):
+        asked = {'bend_angles': self.angles, 'load': self.load, **changed}
+        tensions = asked.pop('tensions', self.tensions)
+        direction = tuple(asked.pop('direction', self.direction))
+        return arm_tip_force(self.arm, tensions, direction=direction, **asked)
+
+
+def random_pushed(draw, friction=True):
+    arm = arm_brute.random_arm(draw, friction=friction)
+    load = arm_brute.random_load(draw)
+    tensions = arm_brute.random_pull(draw, arm, load)
+    for pair in range(len(arm.cables) // 2):  # half of them nearly even, which more joints hold
+        if draw.random() < 0.7:
+            total = tensions[f'l{pair}'] + tensions[f's{pair}']
+            share = draw.uniform(0.45, 0.55)
+            tensions[f'l{pair}'], tensions[f's{pair}'] = total * share, total * (1.0 - share)
+    bent = draw.choice((1.0, 0.3, 0.03))
+    angles = [bent * draw.uniform(-stop, stop) for stop in arm.stops]
+    # Anywhere, across the base, along the last unit.
+    of = draw.choice((draw.uniform(-math.pi, math.pi), 0.5 * math.pi, sum(angles)))
+    return Pushed(arm, load, tensions, angles, np.array([math.sin(of), math.cos(of)]))
+
+
+def joints_held(case, force):
+    """Whether friction can hold each joint under forces in N, from vectors: a row for each."""
+    reference = arm_brute.BruteArm(case.arm, case.angles)
+    pulls = reference.pulls(case.tensions, case.angles)
+    push = force * case.direction[0], force * case.direction[1]
+    found = []
+    for joint, design in enumerate(case.arm.designs):
+        moment, *state = reference.at_joint(joint, case.load, case.angles, pulls, push)
+        total, axial, across = state
+        with np.errstate(all='ignore'):
+            is_held = brute.seats(design, total, axial, across)
+            for side in (1.0, -1.0):
+                capacity = brute.capacity_under(design, total, axial, side * across)
+                is_held &= side * moment <= capacity
+        found.append(is_held)
+    return np.array(found)
