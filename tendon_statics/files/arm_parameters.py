@@ -12,7 +12,9 @@ from ..estimation.arm_follower import ARM_METHODS
 from .cable_parameters import BIASES, GAINS, MAX_TENSIONS, SLACK_THRESHOLDS
 from .measuring_parameters import (
     AUTOSTART,
+    CONFIDENCE,
     EXECUTOR,
+    FILTER_LAG,
     GRAVITY_DIRECTION,
     GRAVITY_SOURCE,
     IMU_MOUNTING,
@@ -25,6 +27,7 @@ from .measuring_parameters import (
     PLAUSIBILITY,
     SERVICE_DEPTH,
     TARE,
+    TENSION_BIAS_STDDEV,
     TENSION_STDDEV,
     TIP_DIRECTION,
     TIP_FORCE,
@@ -64,8 +67,16 @@ ARM_NUMBERS: tuple[NumberParameter, ...] = (
     ),
     dataclasses.replace(
         MEASURED_BEND_ANGLE_STDDEV,
-        description='`tip_force`: standard deviation of what comes on `measured_joint_states`',
+        description='`filtering` and `tip_force`: standard deviation of what comes on '
+        '`measured_joint_states`',
     ),
+    dataclasses.replace(
+        CONFIDENCE,
+        description='`filtering`: probability with which the intervals in `~/arm_estimate` '
+        'enclose what they are of',
+    ),
+    FILTER_LAG,
+    TENSION_BIAS_STDDEV,
     INPUT_TIMEOUT,
     dataclasses.replace(
         MAX_SKEW,
@@ -115,7 +126,9 @@ ARM_WIRING: tuple[Parameter, ...] = (
     ChoiceParameter(
         'estimation',
         ARM_ESTIMATIONS[0],
-        '`tracking`: the node remembers where the joints were, and takes each tension as it is',
+        'the node remembers where the joints were; `tracking`: it takes each tension as it is; '
+        '`filtering`: for a noisy reading, and says how sure it is, which takes tens of '
+        'milliseconds a message',
         choices=ARM_ESTIMATIONS,
     ),
     GRAVITY_SOURCE,

@@ -6,12 +6,14 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from ..estimation.arm_follower import ARM_METHODS
 from ..estimation.arm_settings import ArmSettings
 from ..physics.arm import Arm
 from ..physics.arm.joints import check_bend_angles
 from ..physics.errors import ArmError, BendAngleError
 from .arm_file import load_arm
 from .arm_parameters import (
+    ARM_ESTIMATIONS,
     ARM_NUMBERS,
     ARM_PARAMETERS,
     ARM_VECTORS,
@@ -99,10 +101,14 @@ def arm_settings_from(
             check_bend_angles(arm, start)
         except BendAngleError as error:
             raise MisfitError(f'{INITIAL_BEND_ANGLES.name}: {error}') from None
-    return ArmSettings(
+    settings = ArmSettings(
         arm,
         names or joint_names(arm, (), 'arm'),
         cables=tuple(cable_scale(cable_prefix(name), number) for name in arm.cable_names),
         initial_bend_angles=start,
         **measuring_in(values, ARM_NUMBERS, ARM_VECTORS, ArmSettings),
     )
+    estimation = values.get('estimation', ARM_ESTIMATIONS[0])
+    if refusal := ARM_METHODS[estimation].refusal(settings):
+        raise SettingError(refusal)
+    return settings

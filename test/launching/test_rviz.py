@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 
 import pytest
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
-from list_entities import entities, estimator
+from list_entities import arm_estimator, entities, estimator
 from tendon_statics_interfaces.msg import Estimate
 
 from tendon_statics.files.installed_files import installed_config
@@ -62,6 +62,15 @@ def test_rviz_shows_every_joint_of_a_rig_in_the_frame_of_the_first():
         assert len({display['Name'] for display in shown}) == len(joints)
     options = config['Visualization Manager']['Global Options']
     assert options['Fixed Frame'] == joints[0].names.frame_id
+
+
+def test_an_arm_is_shown_by_the_markers_of_its_own_node():
+    config = rviz_config([Shown('snake', 'snake/base', estimator='arm_estimator')])
+    (markers,) = displays(config, 'MarkerArray')
+    with arm_estimator('markers:=true') as node:
+        (topic,) = (name for name in entities(node)['publisher'] if name.endswith('markers'))
+    assert markers['Topic']['Value'] == topic.replace('~', '/snake/arm_estimator')
+    assert config['Visualization Manager']['Global Options']['Fixed Frame'] == 'snake/base'
 
 
 def test_a_tilted_base_is_shown_tilted():

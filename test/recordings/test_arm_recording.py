@@ -7,7 +7,7 @@ from bags import ORIGIN, write_bag
 from make_docs import ROOT
 from programs import assert_refused, run
 
-from tendon_statics import ArmTracker, load_arm
+from tendon_statics import Arm, ArmTracker, Cable, load_arm
 from tendon_statics.estimation.arm_settings import ArmSettings
 from tendon_statics.recordings.arm_recording import ArmRecording
 from tendon_statics.recordings.errors import RecordingError
@@ -136,6 +136,32 @@ def test_units_and_titles_of_an_arms_table_are_said_by_its_quantities(tmp_path):
     assert recording.bend_angles[5] == pytest.approx(np.radians([5.5]))
     assert recording.in_newtons
     assert recording.time.tolist() == [0.0]
+
+
+def test_a_filtered_replay_has_intervals_of_joints_and_tip():
+    arm = Arm(ARM.units[3:], [Cable('l', 'l', 2), Cable('s', 's', 2)])
+    ones, pulled = np.ones(8), 1.0 + 0.15 * np.arange(8)
+    recording = ArmRecording({'l': ones, 's': pulled}, {2: 0.0 * ones}, time=0.02 * np.arange(8))
+    settings = ArmSettings(arm, ('a', 'b'), tension_stddev=0.02)
+    replayed = replay_arm(settings, recording, 'filtering')
+    for joint in replayed.joints:
+        low, high = joint.interval
+        assert (low <= joint.bend_angle).all()
+        assert (joint.bend_angle <= high).all()
+        assert np.sum([*joint.regime_probabilities.values()], axis=0) == pytest.approx(ones)
+    (low, high), *_ = replayed.tip_interval
+    assert (low <= replayed.tip[0]).all()
+    assert (replayed.tip[0] <= high).all()
+    names = replayed.columns()
+    assert {'tip_x_low', 'estimated_bend_angle_high_2', 'probability_held_1'} <= names.keys()
+    untimed = ArmRecording({'l': ones, 's': pulled})
+    with pytest.raises(RecordingError, match='filtering needs the time'):
+        replay_arm(settings, untimed, 'filtering')
+
+
+def test_filtering_asks_for_the_noise_of_the_load_cells():
+    asked = ('--estimation', 'filtering')
+    assert_refused(run('arm', 'replay', FILE, TABLE, *asked), 'give --tension-stddev')
 
 
 def test_an_arms_recording_is_of_one_length():

@@ -28,3 +28,22 @@ def test_the_demo_shows_a_sound_session_every_regime_and_what_to_do_next():
     named = re.findall(r'(?:tools|docs)/\S+', printed[printed.index('What next') :])
     assert named
     assert all((ROOT / name).is_file() for name in named)
+
+
+def test_the_demo_of_an_arm_shows_its_joints_and_tip_through_the_drive_cycle():
+    done = subprocess.run(
+        [sys.executable, ROOT / 'tools' / 'demo_arm.py'],
+        capture_output=True,
+        text=True,
+        timeout=5.0 * TIME_LIMIT,
+    )
+    assert done.returncode == 0, done.stderr
+    rows = [line.split('|') for line in done.stdout.splitlines() if line.startswith('|')][2:]
+    tips = [float(row[-4]) for row in rows]
+    assert len(rows) > 10
+    assert max(tips) > 60.0
+    assert min(tips) < -60.0
+    assert 'is what ArmTracker says of the same tensions' in done.stdout
+    named = re.findall(r'(?:tools|docs)/\S+', done.stdout[done.stdout.index('What next') :])
+    assert named
+    assert all((ROOT / name).is_file() for name in named)
