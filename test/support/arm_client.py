@@ -80,7 +80,7 @@ class ArmClient(Node):
             lambda message: self.statuses.extend(message.status),
             QoSProfile(depth=1000),
         )
-        self._services = {
+        self._asked = {
             name: self.create_client(kind, f'arm_estimator/{name}')
             for name, kind in self.SERVICES.items()
         }
@@ -113,7 +113,7 @@ class ArmClient(Node):
                 self.tensions.get_subscription_count() > 0
                 and self.measured.get_subscription_count() > 0
                 and all(of.get_publisher_count() > 0 for of in self._answered)
-                and all(of.service_is_ready() for of in self._services.values())
+                and all(of.service_is_ready() for of in self._asked.values())
             )
 
         wait_for('the estimator of the arm', found)
@@ -159,7 +159,7 @@ class ArmClient(Node):
 
     def call(self, name: str, request: Any) -> Any:
         """Call a service, whose answer cannot be lost since the estimator knows this node."""
-        return answer_of(self._services[name].call_async(request), name)
+        return answer_of(self._asked[name].call_async(request), name)
 
     def trigger(self, name: str) -> Trigger.Response:
         """Call a service that takes nothing."""
@@ -184,9 +184,13 @@ class ArmClient(Node):
         answer = self.call('get_parameters', GetParameters.Request(names=[name]))
         return parameter_value_to_python(answer.values[0])
 
-    def status(self, level: bytes, *parts: str) -> DiagnosticStatus:
-        """Wait for a status from now on, of a level, whose message has these parts."""
-        before = len(self.statuses)
+    def status(self, level: bytes, *parts: str, since: int | None = None) -> DiagnosticStatus:
+        """Wait for a status of a level whose message has these parts.
+
+        It is the first after the number `since` of those that have come, or from now on. A report
+        tells of the second before it, so what is said once may be told before it is asked for.
+        """
+        before = len(self.statuses) if since is None else since
 
         def fitting() -> list[DiagnosticStatus]:
             return [
