@@ -143,7 +143,7 @@ def test_a_whole_array_is_taken_in_the_order_of_the_file():
 
         wait_for('an answer', come)
         assert same(client.estimates[-1].bend_angles, state.bend_angles)
-        client.status(WARN, 'wrong length', '3 values came', ', '.join(ARM.cable_names))
+        client.status(WARN, 'wrong length', '3 values came', ', '.join(ARM.cable_names), since=0)
 
 
 BAD = [
@@ -272,6 +272,7 @@ def test_one_status_says_how_the_arm_is_and_names_the_worst_joint(arm):
 
 
 def test_a_slack_cable_casts_doubt_on_all_joints_until_they_are_measured(arm):
+    since = len(arm.statuses)
     slack = arm.answer(EVEN | {'s_mid': 0.0, 's_tip': 0.0})
     assert list(slack.regimes) == ['slack'] * 5
     assert all(map(math.isnan, slack.bend_angles))
@@ -279,7 +280,7 @@ def test_a_slack_cable_casts_doubt_on_all_joints_until_they_are_measured(arm):
     unsure = arm.answer(EVEN)
     assert not any(unsure.angles_assured)
     assert all(map(math.isnan, unsure.bend_angle_stddevs))
-    status = arm.status(WARN, 'may have moved unseen')
+    status = arm.status(WARN, 'may have moved unseen', since=since)
     assert ', '.join(NAMES) in status.message
     assert 'worst is arm_joint_' in status.message
     arm.measure(**dict.fromkeys(NAMES, 0.0))

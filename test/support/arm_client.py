@@ -184,9 +184,13 @@ class ArmClient(Node):
         answer = self.call('get_parameters', GetParameters.Request(names=[name]))
         return parameter_value_to_python(answer.values[0])
 
-    def status(self, level: bytes, *parts: str) -> DiagnosticStatus:
-        """Wait for a status from now on, of a level, whose message has these parts."""
-        before = len(self.statuses)
+    def status(self, level: bytes, *parts: str, since: int | None = None) -> DiagnosticStatus:
+        """Wait for a status of a level whose message has these parts.
+
+        It is the first after the number `since` of those that have come, or from now on. A report
+        tells of the second before it, so what is said once may be told before it is asked for.
+        """
+        before = len(self.statuses) if since is None else since
 
         def fitting() -> list[DiagnosticStatus]:
             return [
