@@ -289,11 +289,18 @@ def test_a_slack_cable_casts_doubt_on_all_joints_until_they_are_measured(arm):
 def test_cables_are_tared_by_their_own_parameters(client):
     noise = random.Random(1)
     offsets = {'l_mid': 0.2, 's_mid': -0.1, 'l_tip': 0.05, 's_tip': 0.0}
-    with client.estimator('-p', 'cables.l_mid.gain:=2', *LONG):
-        assert not client.trigger('tare').success
-        for _ in range(60):
-            client.send({name: of + noise.gauss(0.0, 0.002) for name, of in offsets.items()})
-        wait_for('the readings', lambda: client.trigger('tare').success)
+    slow = ('-p', 'tare_time:=60.0')
+    with client.estimator('-p', 'cables.l_mid.gain:=2', *slow, *LONG, greet=False):
+        refused = client.trigger('tare').message
+        assert 'l_mid has 0 readings' in refused
+        assert 'all cables have to hang slack and still' in refused
+
+        def tared():
+            for _ in range(10):
+                client.send({name: of + noise.gauss(0.0, 0.002) for name, of in offsets.items()})
+            return client.trigger('tare').success
+
+        wait_for('the readings', tared)
         assert client.parameter('cables.l_mid.bias') == pytest.approx(-0.4, abs=0.05)
         assert client.parameter('cables.s_mid.bias') == pytest.approx(0.1, abs=0.05)
         result = client.set_parameters(cables__rope__bias=1.0)
@@ -312,7 +319,7 @@ def test_the_input_gets_stale_and_the_angles_are_in_doubt(client):
         assert list(client.regimes[-1].regimes) == ['stale'] * 5
         assert client.status(STALE, 'no valid tensions for')
         assert not any(client.answer(EVEN).angles_assured)
-        assert 'Valid tensions come again' in program.output()
+        wait_for('the word', lambda: 'Valid tensions come again' in program.output())
 
 
 def test_the_lifecycle_is_that_of_every_managed_node(client):

@@ -224,7 +224,8 @@ def test_only_the_operator_may_change_the_estimator(service):
 def test_no_role_may_answer_or_publish_for_another(role):
     for name in ROLES[role]['reply']:
         assert name.startswith((f'/{role}/', '/_ros2cli_'))
-    shared = {'/parameter_events', '/rosout'}
+    assert who_may('publish', '/diagnostics') == {'estimator', 'arm_estimator'}
+    shared = {'/parameter_events', '/rosout', '/diagnostics'}
     for name in ROLES[role]['publish'] - shared:
         assert who_may('publish', name) == {role}
 
