@@ -31,10 +31,11 @@ SHOWN = 14
 
 WHAT_NEXT = """
 What next:
+  source tools/env.bash                    in bash: the programs on the PATH, then
+  tendon-statics arm report config/arm.yaml config/arm_tensions.csv --output arm.html
+                                           the same session as a page, with figures
   docs/tutorials/an_arm.md                 describe an arm of your own, and follow it
   docs/arm.md                              the model, and how joints slip together
-  tendon-statics arm report config/arm.yaml config/arm_tensions.csv --output arm.html
-                                           (after source tools/env.bash) the same session as a page
 """
 
 
