@@ -12,6 +12,7 @@ from typing import TypeVar
 import rclpy
 from rclpy.node import Node
 from ros_domain import own_domain
+from ros_programs import wait_for
 
 from tendon_statics.command_line.tables import markdown_table
 from tendon_statics.node.arm_estimator import ArmEstimator
@@ -28,13 +29,24 @@ def entities(node: Node) -> dict[str, dict[str, str]]:
         'subscription': node.get_subscriber_names_and_types_by_node,
         'service': node.get_service_names_and_types_by_node,
     }
-    own = node.get_fully_qualified_name() + '/'
-    return {
-        kind: {
-            name.replace(own, '~/'): ', '.join(types)
-            for name, types in ask(node.get_name(), node.get_namespace())
+    made = {
+        'publisher': {of.topic_name for of in node.publishers},
+        'subscription': {of.topic_name for of in node.subscriptions},
+        'service': {of.service_name for of in node.services},
+    }
+
+    def in_graph() -> dict[str, dict[str, str]]:
+        return {
+            kind: {name: ', '.join(types) for name, types in ask(node.get_name(), namespace)}
+            for kind, ask in asked.items()
         }
-        for kind, ask in asked.items()
+
+    own, namespace = node.get_fully_qualified_name() + '/', node.get_namespace()
+    # The middleware says it of itself in its own time.
+    wait_for('the graph', lambda: all(made[kind] <= {*of} for kind, of in in_graph().items()))
+    return {
+        kind: {name.replace(own, '~/'): types for name, types in of_kind.items()}
+        for kind, of_kind in in_graph().items()
     }
 
 

@@ -159,6 +159,7 @@ def _recording_from(
     options: argparse.Namespace, settings: ArmSettings, given: Mapping[str, Any]
 ) -> ArmRecording:
     table = table_from(options, quantities_of(settings.arm))
+    skew = options.max_skew
     tip = TIP_WRENCH if given.get('tip_wrench') is True else None
     topics = BagTopics(
         tensions=(options.tensions_topic,) if options.tensions_topic else None,
@@ -171,8 +172,8 @@ def _recording_from(
         gravity_source=given.get('gravity_source') or DEFAULTS.gravity_source,
         imu_mounting=settings.imu_mounting,
         tip_wrench=options.tip_wrench_topic or tip,
-        max_skew=options.max_skew,
-        tension_skew=settings.max_skew if 'max_skew' in given else None,
+        max_skew=DEFAULTS.max_skew if skew is None else skew,
+        tension_skew=settings.max_skew if skew is None else skew,
         clock=options.clock,
     )
     found = load_arm_recording(options.data, settings.arm, topics, table, progress=with_progress)

@@ -12,7 +12,10 @@ from tendon_statics.estimation.tip_force_watch import TipForceWatch
 
 SETTINGS = Settings(PRELIMINARY, tip_distance=0.02)
 ACROSS = {'direction': (1.0, 0.0), 'distance': 0.02}
-NOISE = {'tension_stddev': 0.01, 'bend_angle_stddev': 0.01}
+NOISE = {
+    'tension_stddev': SETTINGS.tension_stddev,
+    'bend_angle_stddev': SETTINGS.measured_bend_angle_stddev,
+}
 
 
 def held(angle=0.1):

@@ -97,7 +97,7 @@ def test_of_the_same_messages_node_and_replay_make_the_same_pairs(seed, skew, tm
     recording = load_recording(file, BagTopics(tension_skew=skew))
     pairs, drops = [], []
     source = JointStateSource(
-        lambda reading: pairs.append(reading[:2]),
+        lambda reading: pairs.append(reading.values),
         lambda reason, _: drops.append(reason.value),
         ('cable_l', 'cable_s'),
         lambda: skew or 0.005,  # as the parameter has it by default

@@ -118,6 +118,7 @@ def test_with_memory_each_sample_is_as_the_tracker_answers(walk, monkeypatch, ch
         except TensionError:
             assert replayed.regime[index] == 'invalid'
             assert not replayed.angle_assured[index]
+            tracker.doubt()
             continue
         assert replayed.regime[index] == state.regime.value
         assert replayed.angle_assured[index] == state.angle_assured
