@@ -31,7 +31,8 @@ from std_msgs.msg import Float64, Float64MultiArray, String
 from tendon_statics import default_design_path, load_design
 from tendon_statics.files.output_file import output_file
 from tendon_statics.physics import StickSlipTracker, TensionError
-from tendon_statics.recordings.reading.bag_values import ARRAY, NUMBER, TEXT
+from tendon_statics.recordings.reading.bag_record import TEXT
+from tendon_statics.recordings.reading.bag_values import ARRAY, NUMBER
 
 OUTPUT = ROOT / 'config' / 'recorded_session.mcap'
 UNIT = dataclasses.replace(
