@@ -90,7 +90,7 @@ MEANINGS_OF_ARM = {
     '~/regimes': 'of each joint, for every message, but for one that comes late or twice by its '
     'stamp; who subscribes with `transient_local` hears the last at once',
     '~/tip_force': 'the forces on the end of the last unit along `tip_direction` that all joints '
-    'explain, without noise; at most 50 a second',
+    'explain, where their angles are known; at most 50 a second',
     '~/markers': 'for RViz: the units, the regimes as colours',
     '/diagnostics': MEANINGS['/diagnostics'] + ', with the worst joint',
     '~/solve_arm': 'where tensions would take the arm from stated angles, or from where it is, '

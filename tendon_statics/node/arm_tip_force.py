@@ -27,7 +27,8 @@ AT_STOP = 4.0
 class ArmTipForces:
     """Publishes ``~/tip_force`` of an arm: the forces along a line that all joints explain.
 
-    A joint whose angle was measured lately is there; of the others the estimate has to do.
+    A joint whose angle was measured lately is there; of the others the estimate has to do, where
+    it is assured. The largest deviation of an angle is taken for all.
     """
 
     def __init__(self, node: ArmEstimator) -> None:
@@ -69,6 +70,12 @@ class ArmTipForces:
         settings = self._node.core.settings
         oldest = now - settings.input_timeout
         measured = {joint: angle for joint, (at, angle) in self._measured.items() if at >= oldest}
+        stddev = settings.measured_bend_angle_stddev if measured else 0.0
+        for joint, assured in enumerate(estimate.angles_assured, start=1):
+            if joint not in measured:
+                if not assured:
+                    return
+                stddev = max(stddev, estimate.bend_angle_stddevs[joint - 1] or 0.0)
         angles = [
             measured.get(joint, angle) for joint, angle in enumerate(estimate.bend_angles, start=1)
         ]
@@ -88,6 +95,9 @@ class ArmTipForces:
                 direction=settings.tip_direction,
                 load=estimate.known.load,
                 at_stop=at_stop,
+                tension_stddev=settings.tension_stddev,
+                bend_angle_stddev=stddev,
+                level=settings.tip_force_level,
             )
         except TendonStaticsError:  # tensions that let no joint be seated
             return
@@ -102,9 +112,9 @@ def _message(header: Header, found: ArmTipForce, estimate: ArmEstimate) -> Any:
     message = TipForceMessage(header=header, tip_distance=length)
     message.intervals = [end for interval in found.intervals for end in interval]
     message.direction_x, message.direction_z = push_along(settings.tip_direction, length)[:2]
-    # An arm has several angles, and noise is not in its set.
+    message.level, message.probability_free = found.level, found.probability_free
+    # An arm has several angles.
     message.bend_angle = message.bend_angle_stddev = math.nan
-    message.level = message.probability_free = math.nan
     message.force = message.force_stddev = math.nan
     message.load_assured = estimate.known.is_assured
     return message

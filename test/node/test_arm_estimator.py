@@ -18,6 +18,7 @@ from tendon_statics_interfaces.srv import SolveArm
 
 from tendon_statics import ArmTracker, Load, StickSlipTracker, arm_tip_force, load_arm
 from tendon_statics.files.installed_files import installed_config
+from tendon_statics.physics.deviations import BEND_ANGLE_STDDEV, TENSION_STDDEV
 
 ARM = load_arm(installed_config('arm.yaml'))
 NAMES = tuple(f'arm_joint_{number}' for number in range(1, 6))
@@ -469,10 +470,15 @@ def test_what_pushes_at_the_tip_is_told_from_measured_angles(client):
 
         wait_for('a force from measured angles', told)
         found = arm_tip_force(
-            ARM, HELD, bend_angles=list(angles.values()), direction=(1.0, 0.0, 0.0)
+            *(ARM, HELD),
+            bend_angles=list(angles.values()),
+            direction=(1.0, 0.0, 0.0),
+            tension_stddev=TENSION_STDDEV,
+            bend_angle_stddev=BEND_ANGLE_STDDEV,
         )
         ends = [end for interval in found.intervals for end in interval]
         assert list(forces[-1].intervals) == pytest.approx(ends, abs=1e-9)
         assert ends
-        assert math.isnan(forces[-1].level)
+        assert forces[-1].level == 0.95
+        assert forces[-1].probability_free == pytest.approx(found.probability_free)
         assert forces[-1].tip_distance == ARM.units[-1].length

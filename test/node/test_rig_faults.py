@@ -73,6 +73,7 @@ def test_a_stamp_before_all_time_does_no_harm(stamp, joint_state_listener):
         return listener.count('dropped: out of order') == 1
 
     with listener.estimator(*arguments) as program:
+        assert listener.answer(*STOP) == 'driven_to_stop'
         listener.publish(*STOP, stamp=stamp)
         wait_for('that it is dropped', is_dropped)
         assert f'{stamp.sec + 1e-9 * stamp.nanosec:.9f} s' in program.output()
