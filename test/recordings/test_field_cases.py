@@ -224,7 +224,7 @@ def begin_anew(listener):
 def assert_same(columns, estimates, valid):
     """Assert that the node's estimates are those of a replay in these places."""
     # Of a slack cable the node has 0, and the table what was read.
-    is_slack = np.array([estimate.regime == 'slack' for estimate in estimates])
+    is_slack = np.array([estimate.regime == 'slack' for estimate in estimates], dtype=bool)
     for name, field in (
         *(('tension_l', 'tension_l'), ('tension_s', 'tension_s')),
         ('estimated_bend_angle', 'bend_angle'),
