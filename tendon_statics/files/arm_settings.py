@@ -23,7 +23,7 @@ from .arm_parameters import (
 )
 from .installed_files import installed_config
 from .measuring_values import cable_scale, check_directions, measuring_in, numbers_in
-from .parameter_kinds import MisfitError, SettingError
+from .parameter_kinds import SettingError
 
 
 def arm_in(arm_file: str) -> Arm:
@@ -89,9 +89,8 @@ def arm_settings_from(
     Raises
     ------
     SettingError
-        If a value is not valid; the text names the parameter, its value and what is allowed.
-    MisfitError
-        If the joints cannot begin at their angles.
+        If a value is not valid, or the joints cannot begin at their angles, which no other
+        parameter can mend; the text names the parameter, its value and what is allowed.
     """
     check_arm_parameters(arm, values)
     number = numbers_in(values, cable_table(arm.cable_names))
@@ -100,7 +99,7 @@ def arm_settings_from(
         try:
             check_bend_angles(arm, start)
         except BendAngleError as error:
-            raise MisfitError(f'{INITIAL_BEND_ANGLES.name}: {error}') from None
+            raise SettingError(f'{INITIAL_BEND_ANGLES.name}: {error}') from None
     settings = ArmSettings(
         arm,
         names or joint_names(arm, (), 'arm'),

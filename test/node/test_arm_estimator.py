@@ -10,6 +10,8 @@ from contextlib import ExitStack
 import pytest
 from arm_client import ArmClient, array, same, values
 from diagnostic_msgs.msg import DiagnosticStatus
+from rcl_interfaces.srv import SetParameters
+from rclpy.parameter import Parameter
 from ros_domain import free_domain, in_domain
 from ros_programs import Program, spinning, wait_for
 from sensor_msgs.msg import JointState
@@ -310,6 +312,13 @@ def test_cables_are_tared_by_their_own_parameters(client):
         assert client.set_parameters(cables__l_mid__max_tension=3).successful
         refused = client.set_parameters(cables__l_mid__max_tension=-3.0)
         assert 'cables.l_mid.max_tension is -3.0, allowed is' in refused.reason
+        # One by one too: nothing that may come could make it fit.
+        start = Parameter('initial_bend_angles', value=[0.1]).to_parameter_msg()
+        (refused,) = client.call(
+            'set_parameters', SetParameters.Request(parameters=[start])
+        ).results
+        assert not refused.successful
+        assert 'initial_bend_angles: bend_angles is (0.1,)' in refused.reason
 
 
 def test_the_input_gets_stale_and_the_angles_are_in_doubt(client):

@@ -12,7 +12,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState, GetState
-from rcl_interfaces.srv import GetParameters, SetParametersAtomically
+from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter, parameter_value_to_python
@@ -49,6 +49,7 @@ class ArmClient(Node):
         'change_state': ChangeState,
         'get_state': GetState,
         'get_parameters': GetParameters,
+        'set_parameters': SetParameters,
         'set_parameters_atomically': SetParametersAtomically,
     }
 
