@@ -27,7 +27,8 @@ class ArmFiltering(WayOfEstimating[ArmSettings, FilteredArmEstimate]):
     def __init__(self, settings: ArmSettings) -> None:
         super().__init__(settings)
         self._place: Place = (settings.start, (0.0,) * len(settings.start))
-        self._assured = True
+        self._unsure: set[int] = set()
+        """Joints, counted from 1, that may have moved unseen"""
         self._filter = self._new_filter()
         self._clock = ForwardClock()
         self._newest: FilteredArmEstimate | None = None
@@ -55,7 +56,7 @@ class ArmFiltering(WayOfEstimating[ArmSettings, FilteredArmEstimate]):
             tension_bias_stddev=settings.tension_bias_stddev,
             lag=settings.filter_lag,
         )
-        if not self._assured:
+        if self._unsure:
             found.doubt()
         return found
 
@@ -65,7 +66,8 @@ class ArmFiltering(WayOfEstimating[ArmSettings, FilteredArmEstimate]):
         state = self._newest.state
         if state.bend_angles is not None:
             self._place = state.bend_angles, tuple(state.members.std(axis=0).tolist())
-        self._assured = all(state.angles_assured)
+        assured = enumerate(state.angles_assured, start=1)
+        self._unsure = {joint for joint, is_assured in assured if not is_assured}
         return self._newest
 
     def imagine(self, sample: Sample) -> FilteredArmEstimate:
@@ -92,12 +94,12 @@ class ArmFiltering(WayOfEstimating[ArmSettings, FilteredArmEstimate]):
     def doubt(self) -> None:
         """Take it that the arm may have moved unseen."""
         self._filter.doubt()
-        self._assured = False
+        self._unsure = {*range(1, len(self.settings.start) + 1)}
 
     def put(self, bend_angles: Sequence[float]) -> None:
         """Put the joints to angles in rad."""
         self._filter.reset(bend_angles)
-        self._place, self._assured = (tuple(bend_angles), (0.0,) * len(bend_angles)), True
+        self._place, self._unsure = (tuple(bend_angles), (0.0,) * len(bend_angles)), set()
         self._begin_anew(self._filter)
 
     def measure(self, bend_angles: Mapping[int, float]) -> None:
@@ -108,7 +110,16 @@ class ArmFiltering(WayOfEstimating[ArmSettings, FilteredArmEstimate]):
             if stop < abs(angle) <= stop + BEYOND_STOP * stddev:
                 angle = math.copysign(stop, angle)
             self._filter.measure(joint, angle, stddev)
+            self._note(joint, angle, stddev)
         self._newest = None
+
+    def _note(self, joint: int, bend_angle: float, stddev: float) -> None:
+        """Take it that a joint is where a sensor says, if that is better than what is known."""
+        angles, stddevs = map(list, self._place)
+        if joint in self._unsure or stddevs[joint - 1] > stddev:
+            angles[joint - 1], stddevs[joint - 1] = bend_angle, stddev
+            self._place = tuple(angles), tuple(stddevs)
+        self._unsure.discard(joint)
 
     def _begin_anew(self, found: ArmFilter) -> None:
         self._filter = found

@@ -84,9 +84,12 @@ class FilteredArmEstimate(ArmEstimate):
 
     def as_dict(self) -> dict[str, Any]:
         """Return it by name, ready for JSON; what is not known is None."""
+        of_state = self.state.as_dict()
         return {
             'joint_names': self.settings.joint_names,
-            **self.state.as_dict(),
+            **of_state,
             'angles_assured': self.angles_assured,
             'bend_angle_stddevs': self.bend_angle_stddevs,
+            'intervals': self.intervals,
+            'tip_stddev': of_state['tip_stddev'] if self.is_sure else None,
         }

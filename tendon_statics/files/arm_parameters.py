@@ -31,6 +31,7 @@ from .measuring_parameters import (
     TENSION_STDDEV,
     TIP_DIRECTION,
     TIP_FORCE,
+    TIP_FORCE_LEVEL,
     TIP_WRENCH,
 )
 from .parameter_kinds import (
@@ -86,6 +87,7 @@ ARM_NUMBERS: tuple[NumberParameter, ...] = (
     MAX_CLOCK_OFFSET,
     *PLAUSIBILITY,
     LOAD_TIMEOUT,
+    TIP_FORCE_LEVEL,
     *TARE,
 )
 """Those that are numbers and may change while the node runs, beside the cables'"""

@@ -14,21 +14,22 @@ from ..estimation.arm_estimate import ArmEstimate
 from ..physics import TendonStaticsError
 from ..physics.arm import ArmTipForce, arm_tip_force
 from ..physics.load import push_along
+from ..physics.tip_force import may_be_at_stop
 from .outputs.publishers import output_publisher
 from .tip_force import PERIOD, TipForceMessage
 
 if TYPE_CHECKING:
     from .arm_estimator import ArmEstimator
 
-AT_STOP = 4.0
-"""Deviations of a measured angle up to which a joint short of its stop may lean on it"""
+SHARE = 0.2
+"""Of the time that it may take at most: of many joints it is slow, and messages must not wait"""
 
 
 class ArmTipForces:
     """Publishes ``~/tip_force`` of an arm: the forces along a line that all joints explain.
 
-    A joint whose angle was measured lately is there; of the others the estimate has to do, where
-    it is assured. The largest deviation of an angle is taken for all.
+    A joint whose angle was measured lately is there; of the others the estimate has to do, with
+    its deviation. The largest deviation of an angle is taken for all.
     """
 
     def __init__(self, node: ArmEstimator) -> None:
@@ -66,26 +67,22 @@ class ArmTipForces:
             or not self._publisher.handle.get_subscription_count() > 0
         ):
             return
-        self._next = now + PERIOD
         settings = self._node.core.settings
         oldest = now - settings.input_timeout
         measured = {joint: angle for joint, (at, angle) in self._measured.items() if at >= oldest}
-        stddev = settings.measured_bend_angle_stddev if measured else 0.0
-        for joint, assured in enumerate(estimate.angles_assured, start=1):
-            if joint not in measured:
-                if not assured:
-                    return
-                stddev = max(stddev, estimate.bend_angle_stddevs[joint - 1] or 0.0)
-        angles = [
-            measured.get(joint, angle) for joint, angle in enumerate(estimate.bend_angles, start=1)
-        ]
-        reach = dict.fromkeys(measured, AT_STOP * settings.measured_bend_angle_stddev)
+        angles, stddevs = list(estimate.bend_angles), list(estimate.bend_angle_stddevs)
+        for joint, angle in measured.items():
+            angles[joint - 1] = angle
+            stddevs[joint - 1] = settings.measured_bend_angle_stddev
+        known = [stddev for stddev in stddevs if stddev is not None]
+        if len(known) < len(stddevs):  # Of a joint it is not known where it is, or how well.
+            return
         at_stop = [
             joint
-            for joint, (angle, stop) in enumerate(
-                zip(angles, estimate.arm.stops, strict=True), start=1
+            for joint, (design, angle, stddev) in enumerate(
+                zip(estimate.arm.designs, angles, known, strict=True), start=1
             )
-            if angle and abs(angle) >= stop - reach.get(joint, 0.0)
+            if angle and may_be_at_stop(design, angle, stddev)
         ]
         try:
             found = arm_tip_force(
@@ -96,7 +93,7 @@ class ArmTipForces:
                 load=estimate.known.load,
                 at_stop=at_stop,
                 tension_stddev=settings.tension_stddev,
-                bend_angle_stddev=stddev,
+                bend_angle_stddev=max(known),
                 level=settings.tip_force_level,
             )
         except TendonStaticsError:  # tensions that let no joint be seated
@@ -105,6 +102,8 @@ class ArmTipForces:
         message = _message(header, found, estimate)
         message.bend_angle_measured = len(measured) == len(angles)
         self._publisher.publish(message)
+        done = time.monotonic()
+        self._next = done + max(PERIOD, (done - now) / SHARE)
 
 
 def _message(header: Header, found: ArmTipForce, estimate: ArmEstimate) -> Any:

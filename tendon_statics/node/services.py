@@ -13,7 +13,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
 from std_srvs.srv import Trigger
 
-from ..physics import TensionError
+from ..physics import ArmError, TensionError
 from ..tensions.tare import TareError, tare
 from .outputs import messages
 
@@ -64,7 +64,8 @@ class Services:
             return messages.refuse(response, reason)
         try:
             estimate = core.again(newest)
-        except TensionError as error:  # valid for the design of then, not for that of now
+        # Valid for the design and angles of then, not for those of now.
+        except (ArmError, TensionError) as error:
             return messages.refuse(response, str(error))
         load = newest.known.load
         response.success = True

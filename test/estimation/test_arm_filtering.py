@@ -1,5 +1,7 @@
 """`ArmFiltering`: an arm under noise behind the interface of the estimators."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from make_docs import ROOT
@@ -67,9 +69,23 @@ def test_doubt_takes_the_intervals_and_a_measurement_gives_them_back():
     assert doubtful.tip_interval is doubtful.tip_covariance is None
     assert Remark.UNASSURED in doubtful.remarks
     assert follower.measure({1: 0.1, 2: 0.05}, 0.12) == []
+    # What was measured counts at once, and outlasts a change of settings.
+    again = follower.again(follower.newest)
+    assert again.bend_angles == pytest.approx((0.1, 0.05), abs=0.04)
+    follower.change_settings(dataclasses.replace(SETTINGS, tension_bias_stddev=1e-4))
     (known,) = follow(follower, pulls(1), start=0.14)
     assert known.angles_assured == (True, True)
     assert known.bend_angles == pytest.approx((0.1, 0.05), abs=0.04)
+
+
+def test_a_dict_says_what_the_estimate_says():
+    follower = ArmFollower(dataclasses.replace(SETTINGS, confidence=0.5), 'filtering')
+    sure = follow(follower, pulls(6))[-1]
+    assert sure.as_dict()['intervals'] == sure.intervals
+    assert sure.as_dict()['tip_stddev'] is not None
+    sure.is_confirmed = False
+    assert sure.as_dict()['intervals'] == (None, None)
+    assert sure.as_dict()['tip_stddev'] is None
 
 
 def test_a_slack_cable_leaves_all_open():
