@@ -63,6 +63,10 @@ def _check_node(content: Mapping[object, object], key: str, value: object) -> No
             )
 
 
+PLAIN = {bool, int, float, str}
+"""What a parameter may be, or a list of one of them"""
+
+
 def _faults(parameters: Mapping[object, object]) -> Iterator[str]:
     """Say which values ROS does not take."""
     for key, value in parameters.items():
@@ -78,5 +82,10 @@ def _faults(parameters: Mapping[object, object]) -> Iterator[str]:
                     f'{key}{place} has whole and other numbers, which ROS does not mix: write '
                     f'{[float(item) for item in value]}'
                 )
-            elif len(kinds) > 1 or kinds & {dict, list}:
+            elif len(kinds) > 1 or not kinds <= PLAIN:
                 yield f'{key}{place} is {value!r}, but ROS takes lists of one kind of values only'
+        elif type(value) not in PLAIN:
+            yield (
+                f'{key}{place} is {value!r}, but ROS takes numbers, texts, true and false, and '
+                'lists of one of these'
+            )

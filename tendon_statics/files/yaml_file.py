@@ -160,7 +160,7 @@ _AMBIGUOUS = re.compile(r'^[-+]?0(?:[0-9]+|[xX][0-9a-fA-F]+)$')
 def _as_ros_reads(text: str) -> str:
     """What C's strtoll makes of an integer, with the base told by its first digits."""
     sign, digits = ('-' if text.startswith('-') else ''), text.lstrip('+-')
-    base = 16 if digits[1] in 'xX' else 8
+    base = 16 if digits[1:2] in ('x', 'X') else 8 if digits[:1] == '0' else 10
     try:
         return f'{sign}{int(digits, base)}'
     except ValueError:

@@ -23,7 +23,7 @@ from .outputs import messages
 if TYPE_CHECKING:
     from .estimator import Estimator
 
-LARGEST_FILE = 1_000_000
+LARGEST = 100_000
 """Bytes; the node is not to read for long"""
 
 
@@ -65,13 +65,18 @@ def _content(file: str, text: str) -> object:
     """
     if bool(file) == bool(text):
         raise ParameterFileError('give one of the two, file or text')
+    if len(text) > LARGEST:
+        raise ParameterFileError(f'it is longer than {LARGEST} characters')
     if text:
         return parameters_in(text)
     path = Path(file)
-    if path.exists() and not path.is_file():  # a pipe would be waited for
-        raise ParameterFileError('it is not a file')
-    if path.exists() and path.stat().st_size > LARGEST_FILE:
-        raise ParameterFileError(f'it is larger than {LARGEST_FILE} bytes')
+    try:
+        if path.exists() and not path.is_file():  # a pipe would be waited for
+            raise ParameterFileError('it is not a file')
+        if path.exists() and path.stat().st_size > LARGEST:
+            raise ParameterFileError(f'it is larger than {LARGEST} bytes')
+    except (OSError, ValueError) as error:  # a name that is too long, a folder that is closed
+        raise ParameterFileError(f'it cannot be read: {error}') from None
     return read_parameters(path)
 
 

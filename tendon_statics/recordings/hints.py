@@ -199,8 +199,9 @@ def _of_spikes(recording: Session, pulled: _Pulled) -> Iterator[str]:
         if there:
             place, width = there[0]
             within = 'one sample' if width == 1 else f'{width} samples'
+            start = values[place - 1 if place else width]
             yield (
-                f'{name} goes from {values[place - 1]:.4g} N to {values[place]:.4g} N and back '
+                f'{name} goes from {start:.4g} N to {values[place]:.4g} N and back '
                 f'within {within}, {len(there)} times: if the cable does not, set its '
                 f'max_tension, or max_tension_rate, in {pulled.file} (a rate needs times; '
                 '--rate HZ makes those of a table), or a tracked unit is put where it is not'

@@ -33,6 +33,7 @@ def of_unit(recording: Recording, unit: Unit) -> Recording:
     believed = unit.settings.plausibility
     limited = any(f'{name}.max_tension' in unit.parameters for name in scales)
     said = [
+        *filter(None, [unit.addressed]),
         *unit.misspelt,
         *_said(scales, believed, recording, applies, 'design', limited=limited),
     ]
@@ -43,7 +44,7 @@ def of_unit(recording: Recording, unit: Unit) -> Recording:
         readings=(recording.tension_l, recording.tension_s) if applies else None,
         in_newtons=True,
         faults=faults,
-        notes=(*recording.notes, *unit.misspelt, *said),
+        notes=(*recording.notes, *said),
     )
 
 

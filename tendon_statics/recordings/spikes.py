@@ -20,6 +20,9 @@ BRIEF = 0.1
 STANDS_OUT = 3.0
 """Times the largest other step by which a spike stands out of the values around it at least"""
 
+STAYS = 10
+"""Values after one at the beginning that stay where they are"""
+
 AGREE = 0.1
 """Share of a spike's height by which the values before and after it differ at most"""
 
@@ -51,6 +54,10 @@ def spikes(values: Floats, least: float, time: Floats | None = None) -> list[tup
                 found.append((place, width, float(height[place - 1])))
                 taken[place : place + width] = True
                 of_spikes[place - 1 : place + width] = True
+    begun = _at_the_beginning(values, least, _longest(time))
+    if begun is not None and not taken[: begun[0]].any():
+        found.append((0, *begun))
+        of_spikes[: begun[0]] = True
     others = steps[~of_spikes & np.isfinite(steps)]
     largest = float(others.max()) if len(others) else math.inf
     return sorted((place, width) for place, width, high in found if high > STANDS_OUT * largest)
@@ -63,3 +70,15 @@ def _longest(time: Floats | None) -> int:
     if not len(steps):
         return UNTIMED
     return int(np.clip(BRIEF / np.median(steps), 1, LONGEST))
+
+
+def _at_the_beginning(values: Floats, least: float, longest: int) -> tuple[int, float] | None:
+    """Length and height of a spike that the first values are, after which a level stays."""
+    for width in range(1, longest + 1):
+        level = values[width : width + STAYS]
+        if len(level) < STAYS:
+            break
+        height = float(values[:width].min() - level.max())
+        if height > least and np.ptp(level) <= AGREE * height:
+            return width, height
+    return None

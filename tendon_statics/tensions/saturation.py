@@ -53,8 +53,8 @@ class SaturationCheck:
     @property
     def _dither(self) -> float:
         dither = DITHER * self.step
-        # A little more, for readings were scaled.
-        return 1.000001 * dither if dither <= FINE * (self.largest - self.smallest) else 0.0
+        # A quarter more, for readings were scaled and rounded.
+        return 1.25 * dither if dither <= FINE * (self.largest - self.smallest) else 0.0
 
     def rescale(self, scale: Callable[[float], float]) -> None:
         """Go on with readings in other newtons."""

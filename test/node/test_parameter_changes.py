@@ -196,6 +196,18 @@ def test_load_design_reads_nothing_that_is_no_file(tmp_path, running):
         ({'file': str(tmp_path / 'missing.yaml')}, 'it cannot be read: No such file'),
         ({'text': 'x' * 10}, 'it is no parameter file'),
         ({'text': '/**: {ros__parameters: {a: 1}}'}, 'there is no design in it'),
+        ({'file': 300 * 'x'}, 'it cannot be read'),
+        ({'text': 100_001 * 'x'}, 'it is longer than 100000 characters'),
+        *(
+            ({'text': f'/**: {{ros__parameters: {{tension_stddev: {value}}}}}'}, 'ROS takes')
+            for value in (
+                '[~]',
+                '[{a: 1}]',
+                '!!binary aGk=',
+                '!!set {a}',
+                '!!timestamp 2026-01-01',
+            )
+        ),
     ):
         answer = running.load_design(**given)
         assert not answer.success

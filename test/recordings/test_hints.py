@@ -150,6 +150,14 @@ def test_a_spike_of_several_samples_is_found_if_it_is_brief(width):
             assert f'tension_s goes from 1.5 N to 4 N and back within {width} samples' in found[0]
 
 
+@pytest.mark.parametrize('width', [1, 3])
+def test_a_spike_at_the_very_beginning_is_found(width):
+    tension = np.full(100, 1.5)
+    tension[:width] = 4.194
+    (hint,) = hints(Recording(np.ones(100), tension), SETTINGS)
+    assert 'tension_s goes from 1.5 N to 4.194 N and back' in hint
+
+
 @pytest.mark.parametrize('stddev', [0.001, 0.005, 0.02, 0.05])
 def test_noise_that_is_said_to_be_far_too_small_is_doubted(stddev):
     rng = np.random.default_rng(4)

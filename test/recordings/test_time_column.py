@@ -206,6 +206,11 @@ def test_what_only_looks_like_a_title_of_times_is_none(title):
         ('tick', [0.0, 0.1, 3600.0, 3600.1]),
         ('tick', [5.0, 5.0, 6.0, 6.0]),
         ('Messpunkt', [0, 100, 200, 300]),
+        # What speaks of times, whatever else it says.
+        *(
+            (title, [0.0, 0.1, 3600.0, 3600.1])
+            for title in ('sample_time', 'raw_time', 't_motor', 'X_Value', 'Messung')
+        ),
     ],
 )
 def test_a_column_that_behaves_like_a_clock_casts_doubt_until_somebody_says_what_it_is(
@@ -224,6 +229,13 @@ def test_a_column_that_behaves_like_a_clock_casts_doubt_until_somebody_says_what
     named = load_recording(path, table=TableOptions(columns={'time': title}))
     assert named.time.tolist() == values
     assert followed(load_recording(path, table=TableOptions(rate=100.0))).all()
+
+
+def test_a_unit_of_time_in_a_title_makes_it_a_clock_perhaps(tmp_path):
+    for title in ('DAQ time [s]', 'Trigger Time [ms]', 'Time load cell (s)'):
+        recording = load_recording(written(tmp_path, title, 0.0, 0.1, 3600.0, 3600.1))
+        assert recording.time is not None or title in recording.unknown_times
+        assert not followed(recording).all()
 
 
 @pytest.mark.parametrize(

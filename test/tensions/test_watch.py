@@ -157,6 +157,15 @@ def test_a_cell_that_dithers_at_an_end_of_its_range_is_saturated_at_either():
     assert outcomes([*move, *move[:100], *(2.0 + part for part in dither)], believed)[-1] == 2.01
 
 
+def test_rounded_readings_of_a_cell_that_dithers_are_saturated_too():
+    step = 0.00061035
+    move = [round(1.0 + step * place, 4) for place in range(2000)]
+    dither = [round(move[-1] + step * part, 4) for part in (0, 1, 0, -1, 1, 0, -1, 0, 1)]
+    found = outcomes([*move, *dither], Plausibility(saturation_count=5))
+    assert found[: len(move)] == move
+    assert found[-4:] == [Reason.SATURATED] * 4
+
+
 def test_a_cell_that_hangs_at_the_lower_end_of_its_range_is_saturated():
     found = outcomes([1.0, 3.0, 0.5, 0.5, 0.5, 0.6], Plausibility(saturation_count=3))
     assert found == [1.0, 3.0, 0.5, 0.5, Reason.SATURATED, 0.6]

@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import RecordingError
 from ..session import Floats
 from .time_column import TimeColumn, Times, is_moment, times_of_moments
+from .time_titles import TIME_WORDS, time_unit
 
 _COUNTERS = (
     'index idx sample samples seq sequence row rows line frame count counter id no nr num number '
@@ -26,7 +27,7 @@ _NO_CLOCK = frozenset(f'{_COUNTERS} {_OTHERS}'.split())
 """Words in titles of what may rise from row to row and is no clock"""
 
 _WORD = re.compile(r'[A-Z]+(?![a-z])|[A-Z]?[^\W\d_A-Z]+')
-_OTHER_UNIT = re.compile(r'.*[\[(]\s*[^\[\]()\s]+\s*[\])]\s*')
+_UNIT = re.compile(r'.*[\[(]\s*([^\[\]()\s]+)\s*[\])]\s*')
 
 FEWEST = 2
 """Rows that show whether something rises"""
@@ -36,12 +37,15 @@ KNOWN = 0.5
 
 
 def may_be_clock(title: str) -> bool:
-    """Whether a title that is not known does not say what else the column is.
+    """Whether a title that is not known speaks of times, or does not say what else it is of.
 
-    One with a unit in brackets says so: of times that would have been recognised.
+    A unit of something else in brackets does.
     """
     words = {word.casefold() for word in _WORD.findall(title)}
-    return not (words & _NO_CLOCK or _OTHER_UNIT.fullmatch(title))
+    unit = _UNIT.fullmatch(title)
+    if words & TIME_WORDS or title.strip() == 'X_Value' or (unit and time_unit(unit[1])):
+        return True
+    return not (words & _NO_CLOCK or unit)
 
 
 def behaves_like_clock(values: Floats) -> bool:

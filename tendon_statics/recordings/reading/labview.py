@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
+
 from ..errors import RecordingError
 from .columns import find_columns
 from .table_options import TableOptions
@@ -9,6 +11,9 @@ from .text_lines import Line, TextForm, separator_name, split
 
 LABVIEW = 'LabVIEW Measurement'
 """What such a file begins with"""
+
+NO_TIME = 'no time'
+"""Title in place of X_Value where it is empty"""
 
 LABVIEW_END = '***End_of_Header***'
 
@@ -40,7 +45,7 @@ def labview_form(lines: list[Line], options: TableOptions) -> TextForm:
         raise RecordingError('after the preamble of LabVIEW there are no titles')
     titles = split(lines[start][1], separator)
     if titles and titles[0] == 'X_Value':
-        titles[0] = 'no time' if header.get('X_Columns') == 'No' else 'time'
+        titles[0] = NO_TIME if header.get('X_Columns') == 'No' else 'time'
     rows = [line for line in lines[start + 1 :] if not line[1].startswith(LABVIEW_END.encode())]
     if titles and titles[-1] == 'Comment':
         # LabVIEW ends its rows before it where there is none.
@@ -51,7 +56,17 @@ def labview_form(lines: list[Line], options: TableOptions) -> TextForm:
         'a measurement file of LabVIEW: columns are separated by '
         f'{separator_name(separator)}, decimals by {decimal!r}'
     ]
-    return TextForm(titles, separator, decimal, rows, notes)
+    return TextForm(titles, separator, decimal, rows, [*notes, *_unread(header, titles)])
+
+
+def _unread(header: Mapping[str, str], titles: Sequence[str]) -> Iterator[str]:
+    """Say what of the preamble has to be said by options."""
+    step = header.get('Delta_X', '').split('\t')[0].replace(',', '.')
+    if NO_TIME in titles and step:
+        yield f'it has no times, but a Delta_X of {step} s from row to row, which --rate can say'
+    units = header.get('Y_Unit_Label', '').split()
+    if any(unit not in ('N', 'Newton', 'Newtons') for unit in units):
+        yield f'its Y_Unit_Label is {" ".join(units)}, which --units can say'
 
 
 def _cut(line: bytes, separator: str, count: int) -> bytes:

@@ -46,6 +46,9 @@ _RANKS = {
 }
 """What a title of times has in it → its rank, where there are several; the least counts"""
 
+TIME_WORDS = frozenset(_RANKS)
+"""Words of which each is in the title of some times"""
+
 _HIDDEN, _LONE, _ARRIVAL = 5, 6, 10
 """Ranks of ``__time``, of a unit alone, and what is added for times that are not of measurement"""
 
