@@ -54,11 +54,6 @@ def design_name(options: argparse.Namespace) -> str:
     return Path(options.design).name if options.design else 'the preliminary design'
 
 
-def design_from(options: argparse.Namespace) -> JointDesign:
-    """Return the design of that unit."""
-    return unit_from(options).design
-
-
 def design_and_load(options: argparse.Namespace) -> tuple[JointDesign, Load]:
     """Return that design, and what acts on the unit beside its cables."""
     unit = unit_from(options)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from .arm_settings import ArmSettings
 from .estimate import Sample
 from .filtered_arm_estimate import FilteredArmEstimate
-from .filtering import BEYOND_STOP, ForwardClock
+from .filtering import BEYOND_STOP, ForwardClock, refused_without_noise
 from .method import WayOfEstimating
 
 if TYPE_CHECKING:
@@ -36,12 +36,7 @@ class ArmFiltering(WayOfEstimating[ArmSettings, FilteredArmEstimate]):
     @classmethod
     def refusal(cls, settings: ArmSettings) -> str:
         """Return why it cannot work with settings: noise is what it is made for."""
-        if settings.tension_stddev > 0.0:
-            return ''
-        return (
-            f'tension_stddev is {settings.tension_stddev!r}, and estimation is filtering, which '
-            'needs the noise of each tension, above 0 N; tracking is for tensions without noise'
-        )
+        return refused_without_noise(settings)
 
     def _new_filter(self) -> ArmFilter:
         """Return a filter of an arm that is where it was last."""

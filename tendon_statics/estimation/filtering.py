@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from .estimate import Estimate, KnownLoad, Sample
 from .filtered_estimate import FilteredEstimate
+from .measuring import Measuring
 from .method import Method, within_stop
 from .settings import Settings
 
@@ -44,12 +45,7 @@ class Filtering(Method):
     @classmethod
     def refusal(cls, settings: Settings) -> str:
         """Return why it cannot work with settings: noise is what it is made for."""
-        if settings.tension_stddev > 0.0:
-            return ''
-        return (
-            f'tension_stddev is {settings.tension_stddev!r}, and estimation is filtering, which '
-            'needs the noise of each tension, above 0 N; tracking is for tensions without noise'
-        )
+        return refused_without_noise(settings)
 
     def _new_filter(self) -> StickSlipFilter:
         """Return a filter of a unit that is where it was last."""
@@ -157,6 +153,16 @@ class Filtering(Method):
         self._filter = found
         self._newest = None
         self._waiting.clear()
+
+
+def refused_without_noise(settings: Measuring) -> str:
+    """Say why nothing can be filtered with settings, a unit or an arm; empty if it can."""
+    if settings.tension_stddev > 0.0:
+        return ''
+    return (
+        f'tension_stddev is {settings.tension_stddev!r}, and estimation is filtering, which '
+        'needs the noise of each tension, above 0 N; tracking is for tensions without noise'
+    )
 
 
 class ForwardClock:

@@ -44,17 +44,6 @@ class UnitEstimator(ReadingEstimator[Settings, Estimate]):
         """Take what the load cells say, as `take_readings` does."""
         return self.take_readings((reading_l, reading_s), known, now, measured)
 
-    def take_tensions(
-        self,
-        tension_l: float,
-        tension_s: float,
-        known: KnownLoad,
-        now: float,
-        measured: float = math.nan,
-    ) -> Estimate:
-        """Take a pair of tensions in N, as `take_sample` does."""
-        return self.take_sample((tension_l, tension_s), known, now, measured)
-
     def put_back(self, now: float) -> str:
         """Put a unit that is remembered to where it began; return where that is, for people."""
         angle = self.settings.initial_bend_angle

@@ -397,8 +397,9 @@ def test_an_arm_of_one_unit_says_what_the_estimator_of_the_unit_says(tmp_path):
         client.trigger('reset')
         listener.reset()
         client.settle()
+        last = client.estimates[-1].header.stamp
+        wait_for('its answers', lambda: listener.estimates[-1].header.stamp == last)
         client.forget()
-        wait_for('its answers', lambda: time.sleep(0.2) is None)
         listener.forget()
         tracker = StickSlipTracker(PRELIMINARY)
         for row in rows:
