@@ -57,19 +57,20 @@ class Brackets(NamedTuple):
     unresolved: Flags
 
 
-def array_brackets(function: ArrayFunction, count: int, low: float, high: float) -> Brackets:
-    """Bracket the lowest root of each of so many rows between two places, and count all."""
+def array_brackets(function: ArrayFunction, sought: Flags, low: float, high: float) -> Brackets:
+    """Bracket the lowest root between two places of each row where one is sought; count all."""
     rows: Any = slice(None)
+    count = len(sought)
     roots = np.zeros(count, np.int64)
     lows, highs = np.full((2, 3, count), np.inf)
     left, right = function.probe(rows, low), function.probe(rows, high)
     at_low = left[1]
-    unresolved = at_low == 0.0
+    unresolved = sought & (at_low == 0.0)
     for cut in range(CUTS + 1):
         least, greatest = function.slope_bounds(rows, left, right)
         settled = (least > 0.0) | (greatest < 0.0)
-        (crossing,) = np.nonzero(settled & _change_sign(left[1], right[1]))
-        (still,) = np.nonzero(~settled & _may_vanish(left, right, least, greatest))
+        (crossing,) = np.nonzero(sought & settled & _change_sign(left[1], right[1]))
+        (still,) = np.nonzero(sought & ~settled & _may_vanish(left, right, least, greatest))
         at = crossing if cut == 0 else rows[crossing]
         np.add.at(roots, at, 1)
         np.minimum.at(lows[0], at, left[0][crossing])
@@ -84,6 +85,7 @@ def array_brackets(function: ArrayFunction, count: int, low: float, high: float)
         left, right = [line[still] for line in left], [line[still] for line in right]
         middle = function.probe(rows, 0.5 * (left[0] + right[0]))
         rows = np.concatenate([rows, rows])
+        sought = np.ones(len(rows), np.bool_)
         left, right = (
             [np.concatenate(lines) for lines in zip(left, middle, strict=True)],
             [np.concatenate(lines) for lines in zip(middle, right, strict=True)],

@@ -188,8 +188,8 @@ class Slip:
         There are none where nothing that turns with the unit counts beside the tensions: the
         angle is then not determined by them.
         """
-        found = brackets(self, one, other)
-        return found if found and self.is_determined else []
+        # A flat function would be searched long and in vain.
+        return brackets(self, one, other) if self.is_determined else []
 
     @property
     def is_determined(self) -> Any:

@@ -47,7 +47,7 @@ def test_brackets_are_those_of_one_pair():
     resolved = 0
     for case in random_cases(300, seed=2):
         rows, slip = both(*case)
-        found = array_brackets(rows, 1, 0.0, case[0].max_bend_angle)
+        found = array_brackets(rows, rows.slip.is_determined, 0.0, case[0].max_bend_angle)
         if found.unresolved[0]:
             continue
         resolved += 1
@@ -61,7 +61,7 @@ def test_brackets_are_those_of_one_pair():
 def test_a_root_is_proven_by_a_bracket_of_the_bisections_width():
     tensions = np.ones(200), np.linspace(1.965, 2.045, 200)
     rows = SlipRows(facing_slips(PRELIMINARY, UPRIGHT, *tensions, ()))
-    found = array_brackets(rows, 200, 0.0, PRELIMINARY.max_bend_angle)
+    found = array_brackets(rows, np.ones(200, bool), 0.0, PRELIMINARY.max_bend_angle)
     roots = array_refine(rows, list(found.low), list(found.high))
     assert not roots.unresolved.any()
     sides = [

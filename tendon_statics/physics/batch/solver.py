@@ -127,8 +127,8 @@ def _solve_chunk(chunk: EquilibriumBatch, dead: Sequence[Any]) -> None:
         taut = taut[light]
     rows = SlipRows(facing_slips(*of_taut()))
     stop = design.max_bend_angle
-    found = array_brackets(rows, len(taut), 0.0, stop)
-    counts = np.where(rows.slip.is_determined, found.root_count, 0)
+    found = array_brackets(rows, rows.slip.is_determined, 0.0, stop)
+    counts = found.root_count
     driven = (counts == 0) & (found.at_low > 0.0)
     chunk.regime[taut] = REGIME_CODES[Regime.HELD]
     chunk.root_count[taut] = counts
