@@ -1,5 +1,7 @@
 """Files that a disk or a recorder did not finish: only what was recorded comes out of them."""
 
+import functools
+import io
 import sqlite3
 
 import bags
@@ -95,36 +97,44 @@ def test_zeros_that_were_recorded_are_data(tmp_path):
     assert recording.tensions() == [(0.0, 0.0)] * 300
 
 
-def write_mcap(path, *, chunked=True, compression='NONE', sums=True, count=500):
-    """Write a file of one chunk, or of none."""
+@functools.cache
+def mcap(*, chunked=True, compression='NONE', sums=True, count=500, beside=0):
+    """Return a file of one chunk, or of none; so many numbers of another topic go with a pair."""
     from mcap.writer import CompressionType, Writer
 
     rng = np.random.default_rng(7)
-    with path.open('wb') as stream:
-        writer = Writer(
-            stream,
-            chunk_size=1 << 24,
-            compression=CompressionType[compression],
-            use_chunking=chunked,
-            enable_crcs=sums,
-        )
-        writer.start(profile='ros2')
-        definition, _ = STORE.generate_msgdef(ARRAY, ros_version=2)
-        schema = writer.register_schema(ARRAY, 'ros2msg', definition.encode())
-        channel = writer.register_channel('/tensions', 'cdr', schema)
-        for index in range(count):
-            message = bags.array(1.0 + rng.random(), 0.25 * index)  # most end in zeros
+    stream = io.BytesIO()
+    writer = Writer(
+        stream,
+        chunk_size=1 << 24,
+        compression=CompressionType[compression],
+        use_chunking=chunked,
+        enable_crcs=sums,
+    )
+    writer.start(profile='ros2')
+    definition, _ = STORE.generate_msgdef(ARRAY, ros_version=2)
+    schema = writer.register_schema(ARRAY, 'ros2msg', definition.encode())
+    tensions, other = (
+        writer.register_channel(topic, 'cdr', schema) for topic in ('/tensions', '/other')
+    )
+    for index in range(count):
+        messages = [(tensions, bags.array(1.0 + rng.random(), 0.25 * index))]  # most end in zeros
+        if beside:
+            messages.append((other, bags.array(*rng.random(beside))))
+        for channel, message in messages:
             data = bytes(STORE.serialize_cdr(message, ARRAY))
             writer.add_message(channel, ORIGIN + index, data, ORIGIN + index)
-        writer.finish()
-    return path.read_bytes()
+    writer.finish()
+    return stream.getvalue()
 
 
+COMPRESSED = {'count': 1000, 'beside': 125}
+"""A megabyte, in blocks of 64 or 128 kB"""
 KINDS = {
     'one chunk': {},
     'one chunk without sums': {'sums': False},
-    'one chunk by zstd': {'compression': 'ZSTD', 'count': 8000},
-    'one chunk by lz4': {'compression': 'LZ4', 'count': 8000},
+    'one chunk by zstd': {'compression': 'ZSTD', **COMPRESSED},
+    'one chunk by lz4': {'compression': 'LZ4', **COMPRESSED},
     'no chunks': {'chunked': False},
 }
 
@@ -133,7 +143,8 @@ KINDS = {
 @pytest.mark.parametrize('kind', KINDS)
 def test_of_a_file_of_one_chunk_that_was_cut_the_beginning_is_read(tmp_path, kind, zeros):
     file = tmp_path / 'run.mcap'
-    content = write_mcap(file, **KINDS[kind])
+    content = mcap(**KINDS[kind])
+    file.write_bytes(content)
     recorded = load_recording(file).whole().tensions()
     before = 0
     for share in np.arange(0.45, 0.999, 0.073):
@@ -152,7 +163,7 @@ def test_of_a_file_of_one_chunk_that_was_cut_the_beginning_is_read(tmp_path, kin
 
 def test_how_much_of_a_cut_chunk_is_read_is_said(tmp_path):
     file = tmp_path / 'run.mcap'
-    content = write_mcap(file)
+    content = mcap()
     file.write_bytes(content[: len(content) // 2])
     recording = load_recording(file)
     (damage,) = recording.damage
@@ -162,7 +173,8 @@ def test_how_much_of_a_cut_chunk_is_read_is_said(tmp_path):
 
 def test_a_hole_in_a_chunk_without_a_sum_is_named_and_is_no_data(tmp_path):
     file = tmp_path / 'run.mcap'
-    content = write_mcap(file, sums=False)
+    content = mcap(sums=False)
+    file.write_bytes(content)
     recorded = load_recording(file).tensions()
     for size in range(5000, 5100, 7):
         file.write_bytes(content[:size] + bytes(512) + content[size + 512 :])
@@ -173,7 +185,7 @@ def test_a_hole_in_a_chunk_without_a_sum_is_named_and_is_no_data(tmp_path):
 
 def test_of_a_chunk_that_was_cut_before_its_first_message_nothing_is_made_up(tmp_path):
     file = tmp_path / 'run.mcap'
-    content = write_mcap(file)
+    content = mcap()
     for size in (60, 70, 80, 200):
         file.write_bytes(content[:size])
         with pytest.raises(RecordingError, match=r'no topic /tensions|there is no message'):
