@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -197,24 +198,47 @@ class _PureDecoder:
     """Decodes messages by the definitions of ROS 2 Jazzy, or those that the bag holds."""
 
     def __init__(self) -> None:
-        (self._typesys,) = needed('rosbags.typesys', purpose=PURPOSE)
-        stores = self._typesys.Stores
-        self._ros2 = self._typesys.get_typestore(stores.ROS2_JAZZY)
-        self._ros1 = self._typesys.get_typestore(stores.EMPTY)
+        self._typesys = _typesys()
+        self._own: dict[bool, Any] = {}
+        """Whether it is ROS 1 → the types of this bag"""
 
     def decode(self, record: Record, data: Any) -> Any:
-        store = self._ros1 if record.encoding == ROS1 else self._ros2
-        if record.kind not in store.fielddefs:
-            types = self._types(record)
-            store.register({n: fields for n, fields in types.items() if n not in store.fielddefs})
+        store = self._store(record)
         if record.encoding not in (ROS1, CDR):
             raise ValueError(f'encoded as {record.encoding}')
         if record.encoding == ROS1:
             return store.deserialize_ros1(data, record.kind)
         return store.deserialize_cdr(data, record.kind)
 
+    def _store(self, record: Record) -> Any:
+        """Return types among which that of a record is."""
+        is_ros1 = record.encoding == ROS1
+        if not is_ros1 and record.kind in (shared := _types_of_ros2()).fielddefs:
+            return shared
+        if is_ros1 not in self._own:
+            stores = self._typesys.Stores
+            kind = stores.EMPTY if is_ros1 else stores.ROS2_JAZZY
+            self._own[is_ros1] = self._typesys.get_typestore(kind)
+        store = self._own[is_ros1]
+        if record.kind not in store.fielddefs:
+            types = self._types(record)
+            store.register({n: fields for n, fields in types.items() if n not in store.fielddefs})
+        return store
+
     def _types(self, record: Record) -> Any:
         try:
             return self._typesys.get_types_from_msg(record.definition, record.kind)
         except self._typesys.TypesysError:
             return self._typesys.get_types_from_idl(record.definition)
+
+
+def _typesys() -> Any:
+    (typesys,) = needed('rosbags.typesys', purpose=PURPOSE)
+    return typesys
+
+
+@cache
+def _types_of_ros2() -> Any:
+    """Return the types of ROS 2 Jazzy: for all bags, since each is compiled when it is used."""
+    typesys = _typesys()
+    return typesys.get_typestore(typesys.Stores.ROS2_JAZZY)
