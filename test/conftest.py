@@ -1,5 +1,6 @@
 """Keeps every test on this machine and in a ROS domain of its own worker."""
 
+import gc
 import os
 import signal
 from contextlib import ExitStack
@@ -44,6 +45,12 @@ def pytest_collection_modifyitems(items):
             item.add_marker(pytest.mark.node)
         if 'browser' in item.fixturenames:
             item.add_marker(pytest.mark.browser)
+
+
+def pytest_collection_finish():
+    """Leave what is loaded by now alone: looking for garbage in it takes long and finds none."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture(scope='session', autouse=True)

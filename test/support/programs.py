@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import multiprocessing
 import os
 import subprocess
@@ -66,6 +67,8 @@ def run(*arguments: object) -> subprocess.CompletedProcess:
 def _run_main(
     arguments: list[str], streams: list[Path], folder: Path, environment: dict[str, str]
 ) -> None:
+    # What was there before the fork is left alone, else a collection copies every page of it.
+    gc.freeze()
     for number, stream in enumerate(streams, start=1):
         os.dup2(os.open(stream, os.O_WRONLY | os.O_CREAT), number)
     os.chdir(folder)
