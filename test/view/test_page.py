@@ -9,10 +9,11 @@ from contextlib import ExitStack
 import numpy as np
 import pytest
 from browser import BrowserMissingError, chromium
+from forked_programs import ForkedProgram
 from live_page import LivePage, forwarded, view_url
 from rclpy.node import Node
 from ros_domain import free_domain, in_domain
-from ros_programs import Program, spinning, wait_for
+from ros_programs import spinning, wait_for
 
 from tendon_statics import default_design_path, load_design, solve
 from tendon_statics.files.installed_files import installed_config
@@ -62,7 +63,7 @@ class Rig:
 
     def running(self, namespace, name, *arguments):
         moved = ('-r', f'__ns:=/{namespace}') if namespace else ()
-        return Program.running(name, '--ros-args', *moved, *arguments)
+        return ForkedProgram.running(name, '--ros-args', *moved, *arguments)
 
     def driving(self, joint, rate=50.0, tensions=None):
         path = self.folder / f'{joint}.csv'
