@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -14,8 +15,9 @@ from .smoothing import REACH, Estimate, SampleBuffer, Windows
 PATH = (0.7, 0.45, 0.28, 0.16, 0.08, 0.03, 0.0)
 """Places of the provisional path, as shares of the time that is not settled"""
 
-KEPT_WINDOWS = 64
-"""Sets of windows that are kept"""
+KEPT_WINDOWS = 256
+"""Sets of windows that are kept for all filters, which begin alike and come to a few; each takes
+some 30 kB"""
 
 
 @dataclass(slots=True)
@@ -41,7 +43,6 @@ class RecentSamples:
 
     def __init__(self, signals: int, stddev: float) -> None:
         self._signals, self._stddev = signals, stddev
-        self._windows: dict[tuple[int, tuple[int, ...]], Windows] = {}
         self.forget()
 
     def forget(self) -> None:
@@ -91,10 +92,10 @@ class RecentSamples:
     def smoothed(self, ages: Sequence[int]) -> Estimate:
         """Estimate the tensions at samples of these ages, the oldest first."""
         count = min(len(self._buffer), REACH + ages[0])
-        key = count, tuple(ages)
-        windows = self._windows.get(key)
-        if windows is None:  # They seldom change.
-            if len(self._windows) >= KEPT_WINDOWS:
-                self._windows.clear()
-            windows = self._windows[key] = Windows(count, np.array(ages))
+        windows = _windows(count, tuple(ages))
         return windows.estimate(self._buffer.newest(count), self._stddev)
+
+
+@lru_cache(KEPT_WINDOWS)
+def _windows(count: int, ages: tuple[int, ...]) -> Windows:
+    return Windows(count, np.array(ages))
