@@ -130,7 +130,10 @@ def read_and_heard(sent, folder, skew=None):
 
 
 def one_cable_a_message(arrivals):
-    """Both cables at 100 Hz with equal stamps: when each message of a cable arrives in s, and what is added."""
+    """Both cables at 100 Hz with equal stamps.
+
+    Of each: the messages by cable, when each arrives in s, and what is added to its tension.
+    """
     sent = [
         (arrival, 0.01 * number, BOTH[cable : cable + 1], [1.0 + cable + 0.01 * number + more])
         for number, of in enumerate(arrivals)

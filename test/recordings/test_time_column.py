@@ -356,3 +356,36 @@ def test_of_a_tension_that_is_named_the_unit_in_round_brackets_counts(tmp_path):
         columns = dict(zip(('tension_l', 'tension_s'), titles, strict=True))
         recording = load_recording(path, table=TableOptions(columns=columns))
         assert recording.tensions() == [(1.0, 1.5)]
+
+
+@pytest.mark.parametrize(
+    ('texts', 'steps'),
+    [
+        (['23:59:59.8', '23:59:59.9', '00:00:00.0'], [0.0, 0.1, 0.2]),
+        (['23:59:59.8', '', '00:00:00.0'], [0.0, np.nan, 0.2]),
+        (['23:59:59', '12:00:00', '23:59:59', '00:00:01'], None),
+        (['23:59:59', '10:00:00', '10:00:01'], None),
+        (['00:00:01', '00:00:00', '00:00:02'], None),
+    ],
+    ids=['over midnight', 'with a gap', 'there and back', 'by half a day', 'a little'],
+)
+def test_times_of_day_that_fall_by_nearly_a_day_go_on_over_midnight(tmp_path, texts, steps):
+    path = tmp_path / 'run.csv'
+    rows = ''.join(f'{text},1,1\n' for text in texts)
+    path.write_text(f'time,tension_l,tension_s\n{rows}')
+    recording = load_recording(path)
+    (note,) = recording.notes
+    assert ('over midnight' in note) == (steps is not None)
+    assert (recording.disorder == '') == (steps is not None)
+    if steps is not None:
+        np.testing.assert_allclose(recording.time, steps, atol=1e-9)
+
+
+@pytest.mark.parametrize('kind', [pa.time32('ms'), pa.time64('us')])
+def test_times_of_day_in_parquet_are_read(tmp_path, kind):
+    of_day = [datetime.time(23, 59, 59, 900_000), None, datetime.time(0, 0)]
+    columns = {'t': pa.array(of_day, kind), 'tension_l': [1.0] * 3, 'tension_s': [1.0] * 3}
+    parquet.write_table(pa.table(columns), tmp_path / 'run.parquet')
+    recording = load_recording(tmp_path / 'run.parquet')
+    np.testing.assert_allclose(recording.time, [0.0, np.nan, 0.1], atol=1e-9)
+    assert 'over midnight' in recording.notes[0]

@@ -68,7 +68,7 @@ class TensionMessages:
         found: dict[str, list[int]] = {cable: [] for cable in cables}
         pairs = zip(self.messages.get(topic, ()), self.values.get(topic, ()), strict=True)
         for message, value in pairs:
-            for cable, of in zip(cables, value.values):  # none of a message that is at fault
+            for cable, of in zip(cables, value.values or (), strict=bool(value.values)):
                 if of is not None:
                     found[cable].append(places[message.order])
         told = {cable: of for cable, of in found.items() if of}

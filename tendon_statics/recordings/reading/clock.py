@@ -103,7 +103,8 @@ class Stamped(NamedTuple):
         more = f', and at {len(jumps) - 1} more' if len(jumps) > 1 else ''
         return [
             f'the stamps on {topic} jump ahead by {_seconds(ahead[jumps[0]])} s at message '
-            f'{jumps[0] + 2} of {len(self.stamps)}{more}, and the times of recording do not'
+            f'{jumps[0] + 2} of {len(self.stamps)}{more}, and the times of recording do not '
+            '(--clock log takes those)'
         ]
 
     def steps_back(self, topic: str) -> list[str]:
@@ -188,10 +189,13 @@ def common_clock(topics: Mapping[str, Stamped], clock: str, max_skew: int) -> Cl
         if places:
             late.add(topic)
             notes.append(f'{"; ".join(places)}, where messages came late: they are put in order')
-    notes += _offsets(topics, by_stamp, max_skew)
+    offsets = [*_offsets(topics, by_stamp, max_skew)]
     if clock == 'auto' and _are_apart(topics, by_stamp):
+        notes += offsets
         notes.append('so all topics go by the times of recording (--clock stamp|log)')
         by_stamp, rising, late = [], set(), set()
+    elif offsets:
+        notes.append(f'{"; ".join(offsets)} (--clock stamp|log)')
     chosen = {
         topic: times.stamps if topic in by_stamp else times.log_times
         for topic, times in topics.items()

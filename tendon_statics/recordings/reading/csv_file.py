@@ -63,6 +63,8 @@ class _Rows:
         self._times: list[float] = []
         self._nanoseconds: list[float] = []
         self._states: list[str] = []
+        self._numbers: list[int] = []
+        """Of the lines"""
         self._damage: list[str] = []
         self._shortest = 0  # last field so far, in characters
         self._is_moment: bool | None = None
@@ -98,6 +100,7 @@ class _Rows:
             )
             return
         self._shortest = min(self._shortest or length, length)
+        self._numbers.append(number)
         for kept, value in zip(self._values.values(), row, strict=True):
             kept.append(value)
         if isinstance(time, str):
@@ -138,7 +141,10 @@ class _Rows:
 
     def _clock(self) -> tuple[Times | None, str | None]:
         """Return the times, or the title of what behaves like a clock and is not one for sure."""
-        column = self._columns.time
+        column, step = self._columns.time, self._form.step
+        if column is None and step is not None:
+            lines = np.array(self._numbers) - self._form.rows[0][0]
+            return Times(step * lines, 0, f'time: {step:g} s from row to row, by Delta_X'), None
         if column is None:
             return self._found_clock()
         if self._is_moment:

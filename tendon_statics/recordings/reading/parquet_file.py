@@ -20,9 +20,12 @@ from .time_column import (
     TimeColumn,
     Times,
     times_of,
+    times_of_day,
     times_of_moments,
     times_of_nanoseconds,
 )
+
+_NO_TIME = np.iinfo(np.int64).min
 
 
 def load_parquet(
@@ -78,6 +81,11 @@ def load_parquet(
 
     def times(column: TimeColumn) -> Times:
         values = table[titles[column.place]]
+        if pa.types.is_dictionary(values.type):
+            values = values.cast(values.type.value_type)
+        if pa.types.is_time(values.type):
+            of_day = values.cast(pa.time64('ns')).cast(pa.int64()).fill_null(_NO_TIME)
+            return times_of_day(column, of_day.to_numpy())
         if pa.types.is_timestamp(values.type) or pa.types.is_date(values.type):
             moments = values.cast(pa.timestamp('ns'), safe=False).to_numpy()
             return times_of_nanoseconds(column, moments.astype('datetime64[ns]').astype(np.int64))

@@ -25,6 +25,12 @@ _DAY = (
 _MOMENT = re.compile(rf'(?:{_DAY}(?:T|,?\s+))?{_CLOCK}\s*(?P<zone>Z|UTC|[+-]\d\d:?\d\d)?')
 """A date and time of day, or a time of day alone"""
 
+DAY = 86_400_000_000_000
+"""ns"""
+
+MIDNIGHT = DAY // 24
+"""ns that a time of day, which falls by nearly a day, may have gone on over midnight"""
+
 MOMENTS = '2026-11-27T10:00:00.5, 27.11.2026 10:00:00,5 or 10:00:00.5'
 """How dates and times may be written, for people"""
 
@@ -143,9 +149,7 @@ def times_of_moments(column: TimeColumn, texts: Sequence[str]) -> Times:
     nanoseconds = np.array(moments, dtype='datetime64[ns]').astype(np.int64)
     first = next((text for text in texts if text.strip()), '')
     if is_of_day(first):
-        return _since_first(
-            nanoseconds, f'time: the column {column.title}, times of day'
-        )._replace(origin=0)
+        return times_of_day(column, nanoseconds)
     is_iso = '-' in first[:5]
     without_zone = any(text.strip() and not _has_zone(text) for text in texts)
     return _since_first(
@@ -184,6 +188,25 @@ def _moment(text: str, column: TimeColumn) -> Any:
         minutes = 60 * int(zone[1:3]) + int(zone[-2:])
         moment = moment - np.timedelta64(sign * minutes, 'm')
     return moment
+
+
+def times_of_day(column: TimeColumn, nanoseconds: np.ndarray) -> Times:
+    """Turn times of day in ns into times in s; the least of all numbers is NaN.
+
+    Where they fall by nearly a day, and nowhere by less, it was midnight.
+    """
+    known = nanoseconds != np.iinfo(np.int64).min
+    of_day = nanoseconds[known]
+    steps = np.diff(of_day)
+    midnights = (steps <= MIDNIGHT - DAY) & (steps > -DAY)
+    note = f'time: the column {column.title}, times of day'
+    if midnights.any() and (steps[~midnights] >= 0).all():
+        of_day = of_day + DAY * np.concatenate([[0], np.cumsum(midnights)])
+        count = int(midnights.sum())
+        note += f', over midnight{f" {count} times" * (count > 1)}, where they begin anew'
+    nanoseconds = nanoseconds.copy()
+    nanoseconds[known] = of_day
+    return _since_first(nanoseconds, note)._replace(origin=0)
 
 
 def times_of_nanoseconds(column: TimeColumn, nanoseconds: np.ndarray) -> Times:
