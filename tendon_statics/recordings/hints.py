@@ -78,9 +78,11 @@ def _of_recording(recording: Session, pulled: Pulled, *, are_in_order: bool) -> 
 def _of_spikes(recording: Session, pulled: Pulled) -> Iterator[str]:
     if pulled.settings.plausibility.max_rate > 0.0 and recording.time is not None:
         return
-    for name, values in pulled.cables.items():
+    for (name, values), scale in zip(pulled.cables.items(), pulled.settings.scales, strict=True):
         believed = np.where(np.array(recording.known_faults) == '', values, math.nan)
-        there = spikes(believed, SPIKE * pulled.weight, recording.time)
+        # What reads slack moves no unit that is followed.
+        lowest = scale.slack_threshold
+        there = spikes(believed, SPIKE * pulled.weight, recording.time, lowest)
         if there:
             place, width = there[0]
             within = 'one sample' if width == 1 else f'{width} samples'

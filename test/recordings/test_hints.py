@@ -130,6 +130,24 @@ def test_every_verb_gives_the_hint_on_degrees_whatever_the_regime(tmp_path, verb
 SPIKE = {'tension_l': [1.0] * 4, 'tension_s': [1.5, 4.194, 1.5, 1.5]}
 
 
+@pytest.mark.parametrize(
+    ('values', 'said'),
+    [
+        ({20: 0.06}, 'tension_s goes from 1.5 N to 0.06 N and back within one sample, 1 times'),
+        ({20: 4.2, 40: 0.06}, 'tension_s goes from 1.5 N to 4.2 N and back within one sample, 2'),
+        ({0: 0.06}, 'tension_s goes from 1.5 N to 0.06 N and back within one sample, 1 times'),
+        ({20: 0.02}, ''),
+    ],
+    ids=['downwards', 'both', 'at the beginning', 'slack, which casts doubt'],
+)
+def test_a_spike_is_said_whichever_way_it_goes(values, said):
+    tension_s = np.full(60, 1.5)
+    tension_s[[*values]] = [*values.values()]
+    found = hints(Recording(np.ones(60), tension_s, time=0.01 * np.arange(60)), SETTINGS)
+    assert len(found) == bool(said)
+    assert all(said in hint for hint in found)
+
+
 def test_a_spike_is_said_with_or_without_times_unless_rates_are_checked():
     for time in (None, [0.0, 0.1, 0.2, 0.3]):
         spiked = Recording(**SPIKE, time=time)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -13,16 +14,21 @@ from ..errors import RecordingError
 from ..progress import Progress, unseen
 from .clock_like import Candidate, may_be_clock
 from .columns import Column, Columns, find_columns
+from .moments import MOMENTS, is_moment, is_of_day
 from .table import Table
 from .table_options import TableOptions
 from .text_form import recognise
 from .text_lines import DECIMAL_COMMA, TextForm, bare, no_utf_8
-from .time_column import MOMENTS, Times, is_moment, is_of_day, times_of, times_of_moments
+from .time_column import Times, times_of, times_of_moments
 
 LINE_ENDS = (b'\n', b'\r')
 
-MISSING = {'', 'na', 'n/a', '#n/a', '<na>', 'null', 'none', '-nan', '-1.#ind', '1.#qnan'}
-"""What programs write for a missing number, besides nan"""
+MISSING = re.compile(
+    r'|n/?a|n\.a\.|<na>|null|none|missing|-?nan(\(\w+\))?|-?1\.#(ind|qnan|snan|inf)|#[\w/]+[!?]?|-+',
+    re.IGNORECASE,
+)
+"""What programs write for a number that is missing, or that they cannot compute: Excel ``#N/A``,
+``#NV`` or ``#DIV/0!``, C ``1.#QNAN`` or ``nan(ind)``"""
 
 MOST_SHOWN = 80
 """Characters of a damaged line that are shown"""
@@ -200,7 +206,7 @@ class _Rows:
         return column.factor * self._plain(fields[column.place])
 
     def _plain(self, text: str) -> float:
-        if text.casefold() in MISSING:
+        if MISSING.fullmatch(text):
             return math.nan
         number = text
         if self._form.decimal == ',':

@@ -14,6 +14,7 @@ from ..progress import Progress, unseen
 from ..session import Floats
 from .clock_like import behaves_like_clock, may_be_clock
 from .columns import find_columns
+from .moments import UNKNOWN
 from .table import Table
 from .table_options import TableOptions
 from .time_column import (
@@ -24,8 +25,6 @@ from .time_column import (
     times_of_moments,
     times_of_nanoseconds,
 )
-
-_NO_TIME = np.iinfo(np.int64).min
 
 
 def load_parquet(
@@ -84,7 +83,7 @@ def load_parquet(
         if pa.types.is_dictionary(values.type):
             values = values.cast(values.type.value_type)
         if pa.types.is_time(values.type):
-            of_day = values.cast(pa.time64('ns')).cast(pa.int64()).fill_null(_NO_TIME)
+            of_day = values.cast(pa.time64('ns')).cast(pa.int64()).fill_null(UNKNOWN)
             return times_of_day(column, of_day.to_numpy())
         if pa.types.is_timestamp(values.type) or pa.types.is_date(values.type):
             moments = values.cast(pa.timestamp('ns'), safe=False).to_numpy()

@@ -91,8 +91,8 @@ class Quantities:
             if name != quantity and pattern.fullmatch(title):
                 raise RecordingError(
                     f'there is a column {title!r}, which would be overlooked: write '
-                    f'{self._as_to_write(quantity, title)}; what is something else needs another '
-                    'name'
+                    f'{self._as_to_write(quantity, title)}, or say --columns '
+                    f'{quantity}="{title}"; what is something else needs another name'
                 )
         return name, 1.0
 
