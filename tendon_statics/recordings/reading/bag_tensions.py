@@ -153,16 +153,22 @@ def _nothing(
         )
     field = topics.interface if kind == DYNAMIC else 'effort'
     there: dict[str, None] = {}
+    fields: dict[str, None] = {}
     for message in messages:
         content = message.content
         if kind == DYNAMIC:
-            there.update(dict.fromkeys(content.joint_names))
+            for joint, of in zip(content.joint_names, content.interface_values, strict=False):
+                fields.update(dict.fromkeys(of.interface_names))
+                there.update(dict.fromkeys([joint] * (field in of.interface_names)))
         elif len(content.effort) == len(content.name):
             there.update(dict.fromkeys(content.name))
+    others = '' if field in fields or not fields else f'; {field} is not among {", ".join(fields)}'
+    others += ' (--interface NAME)' * bool(others)
     fault = next((value.fault[1] for value in values if value.fault), '')
     return (
         f'no message on {name} has the {field} of {_listed(topics.cable_names)}'
         f'{f" ({fault})" * bool(fault)}; there is that of: {", ".join(sorted(there)) or "none"}'
+        f'{others}'
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -45,7 +45,8 @@ def load_parquet(
     with file:
         titles = list(file.schema_arrow.names)
         columns = find_columns(titles, options)
-        time = columns.time or _moments(file.schema_arrow, columns.others)
+        moments = [] if columns.time else _moments(file.schema_arrow, columns.others)
+        time = moments[0] if len(moments) == 1 else columns.time
         places = [column.place for column in columns.numbers.values()]
         may_be = [
             place
@@ -96,6 +97,12 @@ def load_parquet(
         rest = None if column.nanoseconds is None else numbers(column.nanoseconds)
         return times_of(column, numbers(column.place), rest)
 
+    def clocks() -> Iterator[str]:
+        """Titles of what behaves like a clock, where there are no times for sure."""
+        if time is None:
+            yield from (column.title for column in moments)
+            yield from (titles[place] for place in may_be if behaves_like_clock(numbers(place)))
+
     state = None
     if columns.state is not None:
         state = [str(value or '') for value in table[titles[columns.state]].to_pylist()]
@@ -104,20 +111,19 @@ def load_parquet(
         columns,
         {name: numbers(column.place) * column.factor for name, column in columns.numbers.items()},
         None if time is None else times(time),
-        next((titles[place] for place in may_be if behaves_like_clock(numbers(place))), None),
+        next(clocks(), None),
         state,
         damage=damage,
     )
 
 
-def _moments(schema: Any, others: Sequence[int]) -> TimeColumn | None:
-    """The only column of moments, as the index that pandas has written, whatever it is called."""
-    found = [
+def _moments(schema: Any, others: Sequence[int]) -> list[TimeColumn]:
+    """Columns of moments, whatever they are called; one alone is the index of pandas."""
+    return [
         TimeColumn(place, schema.field(place).name)
         for place in others
         if str(schema.field(place).type).startswith('timestamp')
     ]
-    return found[0] if len(found) == 1 else None
 
 
 def _is_number(kind: Any) -> bool:
