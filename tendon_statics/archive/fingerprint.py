@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
 from pathlib import Path
 
 from ..recordings.reading.bag_folder import files_of_bag
@@ -16,25 +15,19 @@ def fingerprint(path: Path) -> str:
     """Return the SHA-256 of a recording, in hexadecimal digits.
 
     Of a file it is that of its content, as ``sha256sum`` gives it; of several, a bag's folder or
-    a ``.db3`` with the ``-wal`` of a killed recorder, that of the list which ``sha256sum`` prints.
+    a ``.db3`` with what SQLite keeps beside it of a killed recorder, ``-wal`` or ``-journal``,
+    that of the list which ``sha256sum`` prints.
 
     Raises
     ------
     OSError
         If it cannot be read.
     """
-    files = _files(path)
+    files = files_of_bag(path)
     if files == [path]:
         return _sha256(path)
     listed = ''.join(f'{_sha256(file)}  {file.name}\n' for file in files)
     return hashlib.sha256(listed.encode()).hexdigest()
-
-
-def _files(path: Path) -> Sequence[Path]:
-    if path.is_dir():
-        return files_of_bag(path)
-    log = path.with_name(f'{path.name}-wal')
-    return [path, log] if log.is_file() else [path]
 
 
 def _sha256(path: Path) -> str:

@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 from ..estimation.arm_settings import ArmSettings
 from ..files.arm_file import load_arm
 from ..files.arm_parameters import ARM_ESTIMATIONS, ARM_TENSION_SOURCES
-from ..files.arm_settings import arm_settings_from, joint_names
+from ..files.arm_settings import arm_settings_from, check_cables, joint_names
+from ..files.known_parameters import check_parameters_of_ros
 from ..files.parameter_file import node_parameters, read_parameters
 from ..files.parameter_form import ParameterFileError
 from ..files.parameter_kinds import SettingError
@@ -141,6 +142,8 @@ def _settings_from(options: argparse.Namespace) -> tuple[ArmSettings, Mapping[st
         if path is not None:
             node = options.node if options.node.startswith('/') else f'/{options.node}'
             given = node_parameters(read_parameters(Path(path)), node)
+            check_parameters_of_ros(given)
+            check_cables(arm, given)
         named = options.joint_names or given.get('joint_names') or ()
         names = joint_names(arm, named, given.get('arm_name') or 'arm')
         settings = arm_settings_from(arm, given, names)

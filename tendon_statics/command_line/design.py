@@ -6,7 +6,6 @@ import argparse
 import sys
 
 from ..files.estimator_parameters import DESIGN, ESTIMATIONS
-from ..files.unit_settings import not_known
 from ..physics import design_fields
 from .options import add_design_option, unit_from
 from .tables import markdown_table
@@ -21,12 +20,7 @@ def run(options: argparse.Namespace) -> None:
     """Print every parameter of the design with its value, unit and range; and what else is set."""
     unit = unit_from(options)
     design = unit.design
-    unknown = [
-        f'{name} is no parameter of the estimator, which ignores it'
-        for name in not_known(unit.parameters)
-        if not any(warning.startswith(f'{name} ') for warning in unit.misspelt)
-    ]
-    for warning in filter(None, (*unit.misspelt, *unknown, unit.addressed)):
+    for warning in filter(None, (*unit.unknown, unit.addressed)):
         print(f'tendon-statics: {warning}', file=sys.stderr)
     print(
         markdown_table(

@@ -10,6 +10,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from ..recordings.reading.bag_folder import files_of_bag
 from ..recordings.session import Session
 from .tables import Facts
 
@@ -53,8 +54,10 @@ def recorded_on(recording: Session) -> str:
 
 
 def files_of(path: Path) -> list[Path]:
-    """Return the files of a recording: itself, or all that are in its folder."""
-    return sorted(part for part in path.rglob('*') if part.is_file()) if path.is_dir() else [path]
+    """Return the files of a recording: itself and what is read with it, or all of its folder."""
+    if path.is_dir():
+        return sorted(part for part in path.rglob('*') if part.is_file())
+    return files_of_bag(path)
 
 
 def sha256(path: Path) -> str:

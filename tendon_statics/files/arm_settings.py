@@ -17,6 +17,7 @@ from .arm_parameters import (
     ARM_NUMBERS,
     ARM_PARAMETERS,
     ARM_VECTORS,
+    CABLES,
     INITIAL_BEND_ANGLES,
     cable_prefix,
     cable_table,
@@ -58,6 +59,24 @@ def joint_names(arm: Arm, given: Iterable[str], arm_name: str) -> tuple[str, ...
             'names are needed, from the base on, or none'
         )
     return names
+
+
+def check_cables(arm: Arm, values: Mapping[str, Any]) -> None:
+    """Check that what is given of cables is of those that the arm has.
+
+    Raises
+    ------
+    SettingError
+        If a cable, or what is said of it, is not known.
+    """
+    known = {parameter.name for parameter in cable_table(arm.cable_names)}
+    for name, value in values.items():
+        if name.startswith(CABLES) and name not in known:
+            raise SettingError(
+                f'{name} is {value!r}, but there is no such parameter; the cables are '
+                f'{", ".join(arm.cable_names)}, and each has gain, bias, max_tension and '
+                'slack_threshold'
+            )
 
 
 def check_arm_parameters(arm: Arm, values: Mapping[str, Any]) -> None:

@@ -13,10 +13,11 @@ from ..physics.design_uncertainty import DesignUncertainty
 from ..physics.errors import DesignError
 from ..tensions.cable_scale import CableScale
 from .design_file import design_values
+from .known_parameters import check_parameters_of_ros, said_of_unknown
 from .parameter_file import node_parameters, only_for, read_parameters
 from .parameter_form import ParameterFileError
 from .parameter_kinds import SettingError
-from .unit_settings import misspelt, settings_from
+from .unit_settings import settings_from
 
 
 @dataclasses.dataclass(frozen=True)
@@ -59,9 +60,9 @@ class Unit:
         return self.parameters.get(name)
 
     @property
-    def misspelt(self) -> list[str]:
-        """What of the parameters looks like one that is meant otherwise, a sentence each."""
-        return misspelt(self.parameters)
+    def unknown(self) -> list[str]:
+        """What of the parameters nobody takes, and which may be meant, a sentence each."""
+        return said_of_unknown(self.parameters)
 
 
 def load_unit(path: str | Path, node: str = '') -> Unit:
@@ -94,6 +95,7 @@ def load_unit(path: str | Path, node: str = '') -> Unit:
         key = f'design.{error.key}' if error.key else ''
         raise DesignError(f'{path}: {"design." if error.key else ""}{error}', key=key) from None
     try:
+        check_parameters_of_ros(parameters)
         addressed = '' if node else only_for(content)
         return Unit(
             settings_from(parameters), parameters, f'{path}: {addressed}' if addressed else ''

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from difflib import get_close_matches
+from collections.abc import Mapping
 from typing import Any
 
 from ..estimation.methods import METHODS
@@ -18,31 +17,9 @@ from .estimator_parameters import (
     ESTIMATOR_PARAMETERS,
     NUMBERS,
     VECTORS,
-    known_names,
 )
 from .measuring_values import cable_scale, check_directions, measuring_in, numbers_in
 from .parameter_kinds import MisfitError, SettingError
-
-
-def misspelt(names: Mapping[str, object]) -> list[str]:
-    """Say of each name that is close to a parameter's which is probably meant."""
-    known = sorted(known_names())
-    found = []
-    for name in not_known(names):
-        close = get_close_matches(name, known, 1, cutoff=0.85)
-        if close:
-            found.append(f'{name} is no parameter of the estimator; is {close[0]} meant?')
-    return found
-
-
-def not_known(names: Iterable[str]) -> list[str]:
-    """Return those names that no parameter of the estimator has; a design's have been checked."""
-    known = known_names()
-    return [
-        name
-        for name in names
-        if name not in known and not name.startswith((DESIGN, 'qos_overrides.'))
-    ]
 
 
 def check_parameters(values: Mapping[str, object]) -> None:

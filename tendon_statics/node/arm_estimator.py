@@ -13,6 +13,7 @@ from ..estimation.arm_follower import ArmFollower
 from ..estimation.arm_settings import ArmSettings
 from ..estimation.health import Health
 from ..files.arm_parameters import cable_prefix
+from ..files.arm_settings import check_cables
 from .arm_services import offer_arm_services
 from .arm_tip_force import ArmTipForces
 from .inputs.measured_joints import measured_joints
@@ -22,7 +23,7 @@ from .managed_estimator import ManagedEstimator
 from .outputs.arm_finding import arm_topics
 from .outputs.arm_markers import arm_markers
 from .outputs.publishers import Outputs
-from .parameters.arm import ArmWiring, arm_table, check_cables, declare_arm_wiring
+from .parameters.arm import ArmWiring, arm_table, declare_arm_wiring
 
 
 class ArmEstimator(ManagedEstimator[ArmSettings, ArmEstimate]):
@@ -37,7 +38,9 @@ class ArmEstimator(ManagedEstimator[ArmSettings, ArmEstimate]):
     def _declare(self) -> None:
         self._wiring, self.arm = declare_arm_wiring(self)
         self.table = arm_table(self.arm, self._wiring.joint_names)
-        check_cables(self, self.arm)
+        # rclpy has no public view of overrides that nobody declares, as a misspelt one.
+        given = {name: of.value for name, of in self._parameter_overrides.items()}
+        check_cables(self.arm, given)
         self.table.declare_changeable(self)
 
     @property

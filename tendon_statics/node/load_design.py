@@ -11,12 +11,14 @@ from rclpy.parameter import Parameter
 
 from ..files.design_file import design_values
 from ..files.estimator_parameters import DESIGN, ESTIMATOR_PARAMETERS, LISTS
+from ..files.known_parameters import check_parameters_of_ros
 from ..files.parameter_file import (
     node_parameters,
     parameters_in,
     read_parameters,
 )
 from ..files.parameter_form import ParameterFileError
+from ..files.parameter_kinds import SettingError
 from ..physics import DesignError, JointDesign
 from .outputs import messages
 
@@ -34,8 +36,9 @@ def load_design(
     try:
         content = _content(request.file, request.text)
         parameters = node_parameters(content, node.get_fully_qualified_name())
+        check_parameters_of_ros(parameters)
         values = _whole(parameters)
-    except (ParameterFileError, DesignError) as error:
+    except (ParameterFileError, SettingError, DesignError) as error:
         return messages.refuse(response, f'{request.file or "text"}: {error}')
     before = {name: node.get_parameter(name).value for name in values}
     result = node.changes.set_together(

@@ -10,7 +10,7 @@ from .errors import RecordingError
 from .recording import Recording
 
 LONGEST_GAP = 0.2
-"""s between two angles; a camera of 5 Hz has as much"""
+"""s between two angles; a camera of 5 Hz has as much, but for a hundredth"""
 
 
 def mark_motion(recording: Recording, step: float) -> Recording:
@@ -20,8 +20,8 @@ def mark_motion(recording: Recording, step: float) -> Recording:
     ``slipping``: the unit is still where it was held, with the last tensions before it moved. So
     it is on the boundary of slip but for one step of the tensions, whatever the motion after it
     looks like. Samples in motion have the state ``moving``, all others are ``held``. Samples
-    without an angle are passed over, as long as the angles before and after them are no more than
-    `LONGEST_GAP` apart; beyond that nothing is known of how the unit came to move.
+    without an angle are passed over. Two angles that are more than `LONGEST_GAP` apart tell no
+    motion: nothing is known of how the unit came to move. Without times, neighbouring samples do.
 
     Parameters
     ----------
@@ -31,8 +31,8 @@ def mark_motion(recording: Recording, step: float) -> Recording:
     Raises
     ------
     RecordingError
-        If there is no angle, time goes back or is there but not known, or the step is not above
-        0.
+        If there is no angle, time goes back or is there but not known, no two angles are near
+        enough in time, or the step is not above 0.
     """
     if recording.bend_angle is None:
         raise RecordingError('there is no measured bend angle in the data')
@@ -45,9 +45,16 @@ def mark_motion(recording: Recording, step: float) -> Recording:
         )
     recording.in_order()
     known = np.flatnonzero(~np.isnan(recording.bend_angle))
-    near = np.diff(known) == 1
-    if recording.time is not None:
-        near |= np.diff(recording.time[known]) <= LONGEST_GAP
+    if recording.time is None:
+        near = np.diff(known) == 1
+    else:
+        gaps = np.diff(recording.time[known])
+        near = gaps <= 1.01 * LONGEST_GAP
+        if len(gaps) and not near.any():
+            raise RecordingError(
+                f'{recording.name}: measured angles are {np.nanmin(gaps):.4g} s apart, or more; '
+                f'motions are told from angles within {LONGEST_GAP:g} s'
+            )
     moves = np.zeros(len(known) + 1, dtype=bool)
     moves[1:-1] = near & (abs(np.diff(recording.bend_angle[known])) > step)
     before, after = moves[:-1], moves[1:]

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.known_parameters import said_of_unknown
 from ..physics.calibration.load_cells import AS_MEASURED, LoadCells
-from ..tensions.cable_scale import CableScale, scaled_arrays
+from ..tensions.cable_scale import SLACK_STDDEVS, CableScale, scaled_arrays
 from ..tensions.reason import Reason
 from ..tensions.watch import Plausibility
 from .arm_recording import ArmRecording
@@ -34,8 +35,9 @@ def of_unit(recording: Recording, unit: Unit) -> Recording:
     limited = any(f'{name}.max_tension' in unit.parameters for name in scales)
     said = [
         *filter(None, [unit.addressed]),
-        *unit.misspelt,
+        *unit.unknown,
         *_said(scales, believed, recording, applies, 'design', limited=limited),
+        _slack_said(scales, unit.settings.tension_stddev, unit.parameters),
     ]
     return dataclasses.replace(
         recording,
@@ -62,9 +64,11 @@ def of_arm(
     scales = {f'cables.{name}': of for name, of in zip(names, settings.scales, strict=True)}
     applies, tensions, faults = _in_newtons(recording, [*scales.values()])
     limited = any(f'{name}.max_tension' in given for name in scales)
-    said = _said(
-        *(scales, settings.plausibility, recording, applies, 'parameter'), limited=limited
-    )
+    said = [
+        *said_of_unknown(given, of_arm=True),
+        *_said(scales, settings.plausibility, recording, applies, 'parameter', limited=limited),
+        _slack_said(scales, settings.tension_stddev, given),
+    ]
     return dataclasses.replace(
         recording,
         cable_tensions=dict(zip(names, tensions, strict=True)),
@@ -154,3 +158,23 @@ def _said(
         named = ' or '.join(name for name, limit in checks.items() if limit)
         found.append(f'what is {named} is not believed, by the {file} file')
     return found
+
+
+def _slack_said(
+    scales: Mapping[str, CableScale], tension_stddev: float, given: Collection[str]
+) -> str:
+    """Say up to which tension a cable counts as slack, and why."""
+    by_threshold: dict[tuple[float, bool], list[str]] = {}
+    for name, scale in scales.items():
+        key = scale.slack_threshold, f'{name}.slack_threshold' in given
+        by_threshold.setdefault(key, []).append(name)
+    return '; '.join(
+        f'{" and ".join(names) if len(by_threshold) > 1 else "a cable"} counts as slack up to '
+        f'{threshold:g} N, '
+        + (
+            'its slack_threshold'
+            if is_given and threshold > 0.0
+            else f'{SLACK_STDDEVS:g} times the tension_stddev of {tension_stddev:g} N'
+        )
+        for (threshold, is_given), names in by_threshold.items()
+    )

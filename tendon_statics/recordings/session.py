@@ -50,6 +50,8 @@ class Session(ABC):
     """Why a sample holds no tensions of all cables, a `Reason` or empty; None: nothing is known"""
     in_newtons: bool = False
     """Whether the tensions are in N for certain, so that no gain or bias applies to them"""
+    marked: frozenset[str] = frozenset()
+    """Quantities whose unit was said, and not taken to be that of SI"""
     notes: tuple[str, ...] = ()
     """What was recognised in the file, and what else is to be known of it, each in one line"""
     base_tilt: Floats | None = None

@@ -27,8 +27,12 @@ AGREE = 0.1
 """Share of a spike's height by which the values before and after it differ at most"""
 
 
-def spikes(values: Floats, least: float, time: Floats | None = None) -> list[tuple[int, int]]:
+def spikes(
+    values: Floats, least: float, time: Floats | None = None, lowest: float = -math.inf
+) -> list[tuple[int, int]]:
     """First place and length of spikes: few values that stand out of those before and after.
+
+    Upwards or downwards.
 
     NaN is none. A spike stands out of all steps that are of none, too, or the tensions go in
     steps that are meant.
@@ -39,25 +43,32 @@ def spikes(values: Floats, least: float, time: Floats | None = None) -> list[tup
         By which it stands out at least.
     time : ndarray, optional
         Of each value in s.
+    lowest : float
+        What is not above it is no spike downwards.
     """
+    longest = _longest(time)
     found: list[tuple[int, int, float]] = []
     taken = np.zeros(len(values), dtype=bool)
     steps = abs(np.diff(values))
     of_spikes = np.zeros(len(steps), dtype=bool)
-    for width in range(1, min(_longest(time), len(values) - 2) + 1):
-        inside = np.lib.stride_tricks.sliding_window_view(values[1:-1], width).min(axis=1)
+    for width in range(1, min(longest, len(values) - 2) + 1):
+        windows = np.lib.stride_tricks.sliding_window_view(values[1:-1], width)
         before, after = values[: -width - 1], values[width + 1 :]
-        height = np.minimum(inside - before, inside - after)
+        least_inside, most_inside = windows.min(axis=1), windows.max(axis=1)
+        up = least_inside - np.maximum(before, after)
+        down = np.minimum(before, after) - most_inside
+        height = np.where(least_inside > lowest, np.maximum(up, down), up)
         stands = (height > least) & (abs(after - before) <= AGREE * height)
         for place in (np.flatnonzero(stands) + 1).tolist():
             if not taken[place : place + width].any():
                 found.append((place, width, float(height[place - 1])))
                 taken[place : place + width] = True
                 of_spikes[place - 1 : place + width] = True
-    begun = _at_the_beginning(values, least, _longest(time))
-    if begun is not None and not taken[: begun[0]].any():
-        found.append((0, *begun))
-        of_spikes[: begun[0]] = True
+    for signed in (values, -np.where(values > lowest, values, math.nan)):
+        begun = _at_the_beginning(signed, least, longest)
+        if begun is not None and not taken[: begun[0]].any():
+            found.append((0, *begun))
+            of_spikes[: begun[0]] = True
     others = steps[~of_spikes & np.isfinite(steps)]
     largest = float(others.max()) if len(others) else math.inf
     return sorted((place, width) for place, width, high in found if high > STANDS_OUT * largest)

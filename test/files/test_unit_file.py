@@ -36,7 +36,7 @@ def test_what_is_not_given_has_the_estimators_defaults(unit):
     assert found.cable_s == CableScale(1.0, -0.5, 1000.0, slack_threshold=0.06)
     assert found.get('tension_stddev') == 0.02
     assert found.get('tension_source') is None
-    assert found.misspelt == []
+    assert found.unknown == []
 
 
 @pytest.mark.parametrize(
@@ -77,11 +77,46 @@ def test_the_node_takes_the_last_of_its_blocks_and_so_does_every_verb(unit):
     assert run('design', '--design', path, '--node', 'right/estimator').returncode == 0
 
 
-def test_a_parameter_that_looks_misspelt_is_named(unit):
-    path = unit('cable_l.gian: 2.0', 'something: 1')
-    assert load_unit(path).misspelt == [
-        'cable_l.gian is no parameter of the estimator; is cable_l.gain meant?'
+def test_what_nobody_takes_is_named_with_what_may_be_meant(unit):
+    """What another program or ROS takes from the same file is left alone, as the node does."""
+    path = unit(
+        *('cable_l.gian: 2.0', 'something: 1', 'rate: 20.0', 'port: 0', 'arm_name: arm'),
+        *('use_sim_time: true', 'qos_overrides: {/tensions: {subscription: {depth: 5}}}'),
+    )
+    said = [
+        'cable_l.gian is no parameter of the estimator; is cable_l.gain meant?',
+        'something is no parameter of the estimator, which ignores it',
     ]
+    assert load_unit(path).unknown == said
+    data = path.with_name('run.csv')
+    data.write_text('tension_l,tension_s\n1,1.5\n')
+    for verb in ('replay', 'track'):
+        done = run(verb, data, '--design', path)
+        assert all(line in done.stdout + done.stderr for line in said)
+
+
+OF_ROS = {
+    'use_sim_time: "yes"': "use_sim_time is 'yes', but true or false is needed",
+    'use_sim_time: 1': 'use_sim_time is 1, but',
+    'start_type_description_service: [true]': 'start_type_description_service is [True]',
+    'qos_overrides: {/tensions: {subscription: {depth: 5.0}}}': 'depth is 5.0, a whole number',
+    'qos_overrides: {/tensions: {subscription: {depth: -5}}}': 'depth is -5, a whole number',
+    'qos_overrides: {/tensions: {subscription: {reliability: yes}}}': 'allowed is reliable or',
+}
+
+
+@pytest.mark.parametrize('line', OF_ROS)
+def test_what_ros_does_not_take_of_its_own_parameters_no_verb_takes(unit, line):
+    with pytest.raises(DesignError) as error:
+        load_unit(unit(line))
+    assert OF_ROS[line] in str(error.value)
+
+
+def test_the_node_refuses_the_same_values_of_ros_own_parameters(unit):
+    for line in OF_ROS:
+        path = unit(line)
+        with Program.running('estimator', '--ros-args', '--params-file', str(path)) as program:
+            assert program.wait() == 1, line
 
 
 AMBIGUOUS = {

@@ -6,10 +6,11 @@ from list_entities import alone, own_parameters
 from tendon_statics.driver.pulley_driver import PulleyDriver
 from tendon_statics.files.driver_parameters import DRIVER_PARAMETERS
 from tendon_statics.files.estimator_parameters import WIRING, known_names
+from tendon_statics.files.known_parameters import QOS
 from tendon_statics.files.view_parameters import VIEW_PARAMETERS
 from tendon_statics.node.estimator import Estimator
 from tendon_statics.node.parameters.estimator import Wiring
-from tendon_statics.node.parameters.unknown import QOS, warn_of_unknown_parameters
+from tendon_statics.node.parameters.unknown import warn_of_unknown_parameters
 from tendon_statics.view.view import View
 
 

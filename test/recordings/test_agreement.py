@@ -89,12 +89,29 @@ def test_of_the_same_messages_node_and_replay_make_the_same_pairs(seed, skew, tm
         stamp += chosen.choice([0, 0, 2, 4, 6, 10])
         names, efforts = chosen.choice(KINDS)
         sent.append((stamp, names, [effort + 0.01 * number for effort in efforts]))
+    recording, pairs, drops = read_and_heard(
+        [(0.001 * number, 0.001 * at, *of) for number, (at, *of) in enumerate(sent)],
+        tmp_path,
+        skew,
+    )
+    found = list(zip(recording.tensions(), recording.known_faults, strict=True))
+    assert [pair for pair, fault in found if not fault] == pairs
+    assert Counter(fault for _, fault in found if fault) == Counter(drops)
+    assert {'repeated stamp', 'unpaired', 'wrong length'} >= set(drops) >= {'repeated stamp'}
+
+
+def read_and_heard(sent, folder, skew=None):
+    """A bag's recording, and the pairs and drops of the node, of joint states.
+
+    Each with its arrival and stamp in s, names and efforts.
+    """
     messages = [
-        ('/tensions', 0.001 * number, bags.joint_state(names, effort=efforts, time=0.001 * stamp))
-        for number, (stamp, names, efforts) in enumerate(sent)
+        ('/tensions', arrival, bags.joint_state(names, effort=efforts, time=stamp))
+        for arrival, stamp, names, efforts in sent
     ]
-    file = bags.write_bag(tmp_path / 'bag', messages)
-    recording = load_recording(file, BagTopics(tension_skew=skew))
+    recording = load_recording(
+        bags.write_bag(folder / 'bag', messages), BagTopics(tension_skew=skew)
+    )
     pairs, drops = [], []
     source = JointStateSource(
         lambda reading: pairs.append(reading.values),
@@ -102,14 +119,48 @@ def test_of_the_same_messages_node_and_replay_make_the_same_pairs(seed, skew, tm
         ('cable_l', 'cable_s'),
         lambda: skew or 0.005,  # as the parameter has it by default
     )
-    for number, (stamp, names, efforts) in enumerate(sent):
-        seconds, rest = divmod(bags.ORIGIN + stamp * 10**6, 10**9)
+    for arrival, stamp, names, efforts in sent:
+        seconds, rest = divmod(bags.ORIGIN + round(1e9 * stamp), 10**9)
         header = Header(stamp=Time(sec=seconds, nanosec=rest))
         message = JointState(header=header, name=names, effort=efforts)
         if not source.is_foreign(message):
-            source.inputs['tensions'][1](message, bags.ORIGIN + number * 10**6)
+            source.inputs['tensions'][1](message, bags.ORIGIN + round(1e9 * arrival))
     source.forget()
-    found = list(zip(recording.tensions(), recording.known_faults, strict=True))
-    assert [pair for pair, fault in found if not fault] == pairs
-    assert Counter(fault for _, fault in found if fault) == Counter(drops)
-    assert {'repeated stamp', 'unpaired', 'wrong length'} >= set(drops) >= {'repeated stamp'}
+    return recording, pairs, drops
+
+
+def one_cable_a_message(arrivals):
+    """Both cables at 100 Hz with equal stamps.
+
+    Of each: the messages by cable, when each arrives in s, and what is added to its tension.
+    """
+    sent = [
+        (arrival, 0.01 * number, BOTH[cable : cable + 1], [1.0 + cable + 0.01 * number + more])
+        for number, of in enumerate(arrivals)
+        for cable, arrival, more in of
+    ]
+    return sorted(sent, key=lambda message: message[0])
+
+
+def test_publishers_of_one_cable_each_that_send_many_at_once_lose_nothing(tmp_path):
+    """As a bus or the network delivers them: ten of one, and then ten of the other."""
+    late = [0.1 * (number // 10) + 0.0001 * number for number in range(60)]
+    sent = one_cable_a_message([[(0, at, 0.0), (1, at + 0.03, 0.0)] for at in late])
+    recording, pairs, drops = read_and_heard(sent, tmp_path)
+    assert (recording.clock, recording.disorder, drops) == ('stamp', '', [])
+    assert recording.tensions() == pairs
+    assert pairs == [(1.0 + 0.01 * number, 2.0 + 0.01 * number) for number in range(60)]
+    assert recording.time == pytest.approx([0.01 * number for number in range(60)])
+
+
+def test_of_two_that_send_each_cable_with_equal_stamps_the_first_counts(tmp_path):
+    twice = [(0, 0.0, 0.0), (1, 0.001, 0.0), (0, 0.002, 0.5), (1, 0.003, 0.5)]
+    sent = one_cable_a_message(
+        [[(cable, 0.01 * number + at, more) for cable, at, more in twice] for number in range(20)]
+    )
+    recording, pairs, drops = read_and_heard(sent, tmp_path)
+    believed = [not fault for fault in recording.known_faults]
+    assert [pair for pair, of in zip(recording.tensions(), believed, strict=True) if of] == pairs
+    assert len(pairs) == 20
+    assert Counter(filter(None, recording.known_faults)) == Counter(drops)
+    assert set(drops) == {'repeated stamp'}

@@ -239,8 +239,9 @@ def test_dynamic_joint_states_are_read_by_joint_and_interface(tmp_path):
     assert recording.tensions() == [(1.0, 2.0), (2.0, 1.0)]
     assert recording.bend_angle[0] == 0.3
     assert math.isnan(recording.bend_angle[1])
-    with pytest.raises(RecordingError, match='the force of cable_l and cable_s'):
+    with pytest.raises(RecordingError, match='the force of cable_l and cable_s') as error:
         load_recording(file, BagTopics(interface='force'))
+    assert 'force is not among position, effort (--interface NAME)' in str(error.value)
 
 
 @pytest.mark.parametrize(

@@ -145,7 +145,11 @@ def test_stamps_that_are_all_zero_mean_the_time_of_arrival(tmp_path):
 
 def test_the_clock_can_be_chosen(tmp_path):
     file = write_bag(tmp_path / 'bag', states(SOUND - 5.0))
-    assert load_recording(file).time_origin == ORIGIN - 5_000_000_000
+    recording = load_recording(file)
+    assert recording.time_origin == ORIGIN - 5_000_000_000
+    assert recording.notes == (
+        'the stamps on /tensions are 5 s behind the times of recording (--clock stamp|log)',
+    )
     assert load_recording(file, BagTopics(clock='log')).time_origin == ORIGIN
     with pytest.raises(RecordingError, match=r'the clock is .sun.; there are auto, stamp, log'):
         BagTopics(clock='sun')

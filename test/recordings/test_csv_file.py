@@ -136,3 +136,17 @@ def test_a_file_that_cannot_be_read_is_named(tmp_path):
 
 def test_the_demo_holds_the_published_case():
     assert (1.0, 2.0) in load_recording(installed_config('demo_tensions.csv')).whole().tensions()
+
+
+@pytest.mark.parametrize(
+    'text',
+    [
+        *('', 'nan', 'NA', 'N/A', 'n.a.', 'null', '#N/A', '#NV', '#DIV/0!', '#WERT!', '--'),
+        *('NaN(ind)', '-nan', '1.#QNAN', '-1.#IND', '1.#INF'),
+    ],
+)
+def test_what_programs_write_for_a_missing_number_is_no_damage(tmp_path, text):
+    path = tmp_path / 'run.csv'
+    path.write_text(f'tension_l,tension_s\n1,1.5\n1,{text}\n1,1.6\n')
+    recording = load_recording(path).whole()
+    np.testing.assert_array_equal(recording.tension_s, [1.5, np.nan, 1.6])

@@ -8,7 +8,7 @@ from designs import PRELIMINARY
 from programs import run
 from slips import recording, session, slipping_samples
 
-from tendon_statics import Recording, load_recording
+from tendon_statics import Recording, RecordingError, load_recording
 from tendon_statics.estimation.settings import Settings
 from tendon_statics.files.installed_files import installed_config
 from tendon_statics.recordings.hints import hints
@@ -26,6 +26,10 @@ TIMES = np.arange(5.0)
     [
         ({'bend_angle': [12.0, 15.0, 17.0, 0.0, 1.0]}, 'bend_angle [deg]'),
         ({'bend_angle': [0.1, 0.0, 0.0, 0.0, -20.0]}, 'bend_angle [deg]'),
+        ({'bend_angle': [210.0, -300.0, 150.0, 0.0, 1.0]}, 'if they are mrad,'),
+        ({'bend_angle': [210.0, 300.0, 150.0, 0.4, 0.3]}, '--units bend_angle=mrad'),
+        ({'base_tilt': [0.0, 10.0, 10.0, 10.0, 10.0]}, '--units base_tilt=deg (mrad likewise)'),
+        ({'base_tilt': [0.0, 900.0, 900.0, 900.0, 900.0]}, '--units base_tilt=mrad'),
         ({'bend_angle': [0.7, 0.7, 0.1, 0.1, np.nan]}, 'too small a max_bend_angle'),
         ({'tension_l': 1000.0 * ONES, 'tension_s': 1500.0 * ONES}, '--units tension=mN'),
         ({'tension_l': 102.0 * ONES, 'tension_s': 153.0 * ONES}, 'gf'),
@@ -69,6 +73,42 @@ def test_a_sound_recording_is_not_doubted(more):
     assert hints(Recording(**values), SETTINGS) == []
 
 
+@pytest.mark.parametrize(
+    ('titles', 'row', 'said'),
+    [
+        ('tension_l,tension_s,bend_angle [mrad]', '1,1.5,12000', 'of the measured angles lie'),
+        ('tension_l [N],tension_s [N]', '1000,1500', 'times the weight of the unit'),
+        ('tension_l [N],tension_s [N]', '11,12', 'even the least of the two tensions'),
+        ('tension_l [mN],tension_s [mN]', '1,1.5', 'are far below the weight of the unit'),
+    ],
+)
+def test_of_a_unit_that_is_said_no_hint_asks_to_say_it(tmp_path, titles, row, said):
+    path = tmp_path / 'run.csv'
+    path.write_text(f'{titles}\n' + f'{row}\n' * 3)
+    (hint,) = hints(load_recording(path), SETTINGS)
+    assert said in hint
+    assert 'the unit that is said of them may be wrong' in hint
+    assert '--units' not in hint
+    assert 'deg' not in hint
+
+
+@pytest.mark.parametrize(
+    ('title', 'meant'),
+    [
+        ('bend_angle_mrad', '[mrad]'),
+        ('bend angle (milliradians)', '[mrad]'),
+        ('bend_angle (degrees)', '[deg]'),
+        ('bend_angle °', '[°]'),
+    ],
+)
+def test_a_title_that_would_be_overlooked_is_refused_with_its_unit(tmp_path, title, meant):
+    path = tmp_path / 'run.csv'
+    path.write_text(f'tension_l,tension_s,{title}\n1,1.5,12\n')
+    with pytest.raises(RecordingError) as error:
+        load_recording(path)
+    assert f'bend_angle {meant} (there are' in str(error.value)
+
+
 def test_what_is_heavy_for_one_unit_is_light_for_another():
     recording = Recording(100.0 * ONES, 150.0 * ONES)
     assert hints(recording, SETTINGS)
@@ -88,6 +128,24 @@ def test_every_verb_gives_the_hint_on_degrees_whatever_the_regime(tmp_path, verb
 
 
 SPIKE = {'tension_l': [1.0] * 4, 'tension_s': [1.5, 4.194, 1.5, 1.5]}
+
+
+@pytest.mark.parametrize(
+    ('values', 'said'),
+    [
+        ({20: 0.06}, 'tension_s goes from 1.5 N to 0.06 N and back within one sample, 1 times'),
+        ({20: 4.2, 40: 0.06}, 'tension_s goes from 1.5 N to 4.2 N and back within one sample, 2'),
+        ({0: 0.06}, 'tension_s goes from 1.5 N to 0.06 N and back within one sample, 1 times'),
+        ({20: 0.02}, ''),
+    ],
+    ids=['downwards', 'both', 'at the beginning', 'slack, which casts doubt'],
+)
+def test_a_spike_is_said_whichever_way_it_goes(values, said):
+    tension_s = np.full(60, 1.5)
+    tension_s[[*values]] = [*values.values()]
+    found = hints(Recording(np.ones(60), tension_s, time=0.01 * np.arange(60)), SETTINGS)
+    assert len(found) == bool(said)
+    assert all(said in hint for hint in found)
 
 
 def test_a_spike_is_said_with_or_without_times_unless_rates_are_checked():

@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from tendon_statics import Recording, RecordingError
@@ -43,6 +44,22 @@ def test_angles_that_come_less_often_than_tensions_are_compared_with_each_other(
     ones = [1.0] * 16
     found = mark_motion(Recording(ones, ones, angles, time=times), 0.1).state
     assert found[::5] == ['slipping', 'moving', 'held', 'held']
+
+
+def test_what_happened_in_a_gap_is_no_motion_of_which_the_beginning_was_seen():
+    """Neighbouring samples, an hour apart: tensions before it say nothing of the slip."""
+    ones = [1.0] * 6
+    times = [0.0, 0.1, 3600.0, 3600.2, 3600.3, np.nan]
+    angles = [0.0, 0.0, 0.4, 0.0, 0.0, 0.4]
+    found = mark_motion(Recording(ones, ones, angles, time=times), 0.1).state
+    assert found == ['held', 'held', 'slipping', 'moving', 'held', 'held']
+
+
+def test_angles_that_are_never_near_each_other_are_refused():
+    ones = [1.0] * 3
+    recording = Recording(ones, ones, [0.0, 0.0, 0.4], time=[0.0, 1.0, 2.0])
+    with pytest.raises(RecordingError, match=r'angles are 1 s apart, or more; .* within 0.2 s'):
+        mark_motion(recording, 0.1)
 
 
 def test_without_an_angle_or_a_step_there_is_nothing_to_mark():

@@ -9,6 +9,7 @@ from pyarrow import parquet
 
 from tendon_statics.recordings.errors import RecordingError
 from tendon_statics.recordings.reading.load import load_recording
+from tendon_statics.recordings.reading.table_options import TableOptions
 
 
 @pytest.fixture
@@ -111,3 +112,13 @@ def test_wherever_a_file_is_damaged_the_error_is_one_line(file):
             said, samples = str(error), 0
         assert '\n' not in said
         assert said or samples == 300
+
+
+def test_of_several_columns_of_moments_none_is_taken_for_the_time_until_it_is_named(file):
+    moments = pa.array([0, 1000], pa.timestamp('ms'))
+    path = file({'a': moments, 'b': moments, 'tension_l': [1.0] * 2, 'tension_s': [1.5] * 2})
+    recording = load_recording(path)
+    assert recording.time is None
+    assert '--columns time="a"' in recording.unknown_times
+    named = load_recording(path, table=TableOptions(columns={'time': 'b'}))
+    assert named.time.tolist() == [0.0, 1.0]

@@ -8,7 +8,7 @@ import pytest
 from designs import PRELIMINARY
 from programs import run
 
-from tendon_statics import Recording
+from tendon_statics import Recording, default_design_path
 from tendon_statics.estimation.methods import METHODS
 from tendon_statics.estimation.settings import Settings
 from tendon_statics.estimation.unit_estimator import KnownLoad, UnitEstimator
@@ -168,3 +168,31 @@ def test_of_noise_and_spikes_node_and_replay_say_the_same(settings, tension_s, a
     assert [is_assured for _, is_assured in of_node] == [bool(one) for one in assured]
     if settings.plausibility.is_checked:
         assert found.bend_angle[-1] == 0.0
+
+
+@pytest.mark.parametrize(
+    ('lines', 'options', 'said'),
+    [
+        ('', (), 'a cable counts as slack up to 0.03 N, 3 times the tension_stddev of 0.01 N'),
+        ('', ('--tension-stddev', 0.02), 'a cable counts as slack up to 0.06 N, 3 times the'),
+        ('tension_stddev: 0.1', (), 'up to 0.3 N, 3 times the tension_stddev of 0.1 N'),
+        (
+            'cable_l.slack_threshold: 0.2',
+            (),
+            'cable_l counts as slack up to 0.2 N, its slack_threshold; cable_s counts as slack up '
+            'to 0.03 N, 3 times the tension_stddev of 0.01 N',
+        ),
+    ],
+)
+@pytest.mark.parametrize('verb', ['replay', 'track', 'report'])
+def test_every_verb_says_up_to_which_tension_a_cable_is_slack(
+    tmp_path, verb, lines, options, said
+):
+    data, unit, page = (tmp_path / name for name in ('run.csv', 'unit.yaml', 'report.html'))
+    data.write_text('time,tension_l,tension_s\n0,1,1.5\n0.1,1,1.5\n')
+    design = default_design_path().read_text()
+    unit.write_text(design.replace('    design:', f'    {lines}\n    design:'))
+    more = ('--output', page) if verb == 'report' else ()
+    done = run(verb, data, '--design', unit, *options, *more)
+    assert done.returncode == 0, done.stderr
+    assert said in (page.read_text() if verb == 'report' else done.stdout + done.stderr)

@@ -84,6 +84,60 @@ def test_a_labview_file_without_times_has_none(file):
     assert recording.time is None
 
 
+CHANNELS = (
+    'LabVIEW Measurement\t\nSeparator\tTab\nDecimal_Separator\t.\nX_Columns\t{columns}\n'
+    '***End_of_Header***\t\n\t\nChannels\t2\nSamples\t2\t2\nY_Unit_Label\t{units}\n'
+    'X_Dimension\tTime\tTime\nDelta_X\t{steps}\n***End_of_Header***\t\n'
+)
+OF_ONE = 'X_Value\ttension_l\ttension_s\tComment\n\t1000.0\t1.5\n\t1000.0\t1.6\tpause\n'
+
+
+def test_the_preamble_of_labview_tells_steps_of_time_and_units(file):
+    text = CHANNELS.format(columns='No', units='mN\tNewtons', steps='0.010000\t0.01') + OF_ONE
+    recording = load_recording(file(text, 'run.lvm')).whole()
+    assert recording.tensions() == PAIRS
+    assert recording.time.tolist() == [0.0, 0.01]
+    assert recording.in_newtons
+    assert recording.notes[1:] == (
+        'tension_l: in mN, by Y_Unit_Label',
+        'tension_s: in N, by Y_Unit_Label',
+        'time: 0.01 s from row to row, by Delta_X',
+    )
+    rate = load_recording(file(text, 'run.lvm'), table=TableOptions(rate=50.0))
+    assert rate.time.tolist() == [0.0, 0.02]
+
+
+def test_a_row_of_labview_that_is_damaged_takes_its_time_too(file):
+    text = CHANNELS.format(columns='No', units='N', steps='0.5') + OF_ONE + '\tx\t1\n\t1\t1\n'
+    recording = load_recording(file(text, 'run.lvm'))
+    assert len(recording.damage) == 1
+    assert recording.time.tolist() == [0.0, 0.5, 1.5]
+
+
+@pytest.mark.parametrize('units', ['mN\t\tNewton', 'mN\tNewton'])
+def test_where_each_channel_of_labview_has_times_units_stand_above_theirs(file, units):
+    text = CHANNELS.format(columns='Multi', units=units, steps='0.01\t\t0.01')
+    text += 'X_Value\ttension_l\tX_Value\ttension_s\tComment\n'
+    text += '0.0\t1000.0\t0.0\t1.5\n0.01\t1000.0\t0.01\t1.6\n'
+    recording = load_recording(file(text, 'run.lvm')).whole()
+    assert recording.tensions() == PAIRS
+    assert recording.time.tolist() == [0.0, 0.01]
+
+
+def test_what_the_preamble_of_labview_does_not_tell_names_the_options(file):
+    steps = '0.01\t0.02'
+    text = CHANNELS.format(columns='No', units='Volts\tN', steps=steps) + OF_ONE
+    recording = load_recording(file(text, 'run.lvm')).whole()
+    assert recording.tensions() == [(1000.0, 1.5), (1000.0, 1.6)]
+    assert (recording.time, recording.in_newtons) == (None, False)
+    _, volts, _, times = recording.notes
+    assert 'Y_Unit_Label is Volts' in volts
+    assert '--units tension_l=UNIT' in volts
+    assert '--rate HZ' in times
+    parts = CHANNELS.format(columns='No', units='N', steps='0.01') + OF_ONE + OF_ONE
+    assert '2 parts' in load_recording(file(parts, 'run.lvm')).notes[-1]
+
+
 @pytest.mark.parametrize('encoding', ['utf-16', 'utf-8-sig'])
 def test_a_byte_order_mark_says_the_encoding(file, encoding):
     recording = load_recording(file('tension_l;tension_s\n1,0;1,5\n1,0;1,6\n', encoding=encoding))

@@ -356,3 +356,73 @@ def test_of_a_tension_that_is_named_the_unit_in_round_brackets_counts(tmp_path):
         columns = dict(zip(('tension_l', 'tension_s'), titles, strict=True))
         recording = load_recording(path, table=TableOptions(columns=columns))
         assert recording.tensions() == [(1.0, 1.5)]
+
+
+@pytest.mark.parametrize(
+    ('texts', 'steps'),
+    [
+        (['23:59:59.8', '23:59:59.9', '00:00:00.0'], [0.0, 0.1, 0.2]),
+        (['23:59:59.8', '', '00:00:00.0'], [0.0, np.nan, 0.2]),
+        (['23:59:59', '12:00:00', '23:59:59', '00:00:01'], None),
+        (['23:59:59', '10:00:00', '10:00:01'], None),
+        (['00:00:01', '00:00:00', '00:00:02'], None),
+    ],
+    ids=['over midnight', 'with a gap', 'there and back', 'by half a day', 'a little'],
+)
+def test_times_of_day_that_fall_by_nearly_a_day_go_on_over_midnight(tmp_path, texts, steps):
+    path = tmp_path / 'run.csv'
+    rows = ''.join(f'{text},1,1\n' for text in texts)
+    path.write_text(f'time,tension_l,tension_s\n{rows}')
+    recording = load_recording(path)
+    (note,) = recording.notes
+    assert ('over midnight' in note) == (steps is not None)
+    assert (recording.disorder == '') == (steps is not None)
+    if steps is not None:
+        np.testing.assert_allclose(recording.time, steps, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ('texts', 'steps'),
+    [
+        (['27-Nov-2026 23:59:59.9', '28-Nov-2026 00:00:00'], [0.0, 0.1]),
+        (['0 sec', '0.1 sec', '1 min'], [0.0, 0.1, 60.0]),
+        (['0 days 00:00:00', '0 days 00:00:00.100000', '1 days'], [0.0, 0.1, 86_400.0]),
+        (['11/27/2026 11:59:59 PM', '11/28/2026 12:00:00 AM'], [0.0, 1.0]),
+        (['27/11/2026 23:59:59', '28/11/2026 00:00:00'], [0.0, 1.0]),
+        (['01/12/2026 23:59:59', '30/11/2026 23:59:58'], [0.0, -86_401.0]),
+        (['12:59:59 pm', '1:00:00 pm'], [0.0, 1.0]),
+        (['2026/11/27 10:00:00', '2026/11/27 10:00:01'], [0.0, 1.0]),
+    ],
+    ids=[
+        *('MATLAB', 'spans of MATLAB', 'spans of pandas', 'US', 'French'),
+        *('the day by another row', 'by halves of the day', 'by strokes'),
+    ],
+)
+def test_dates_and_spans_that_mean_one_time_are_read(tmp_path, texts, steps):
+    recording = load_recording(written(tmp_path, 'Time', *texts)).whole()
+    assert recording.time == pytest.approx(steps, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    'texts',
+    [
+        ['11/12/2026 10:00:00', '11/12/2026 10:00:01'],
+        ['13/12/2026 10:00:00', '12/13/2026 10:00:00'],
+        ['27-Nix-2026 10:00:00'],
+        ['13:00:00 PM'],
+        ['2026-13-27 10:00:00'],
+    ],
+)
+def test_what_may_be_two_times_or_none_is_refused(tmp_path, texts):
+    with pytest.raises(RecordingError, match=r'is no time: .*it may be as in'):
+        load_recording(written(tmp_path, 'Time', *texts))
+
+
+@pytest.mark.parametrize('kind', [pa.time32('ms'), pa.time64('us')])
+def test_times_of_day_in_parquet_are_read(tmp_path, kind):
+    of_day = [datetime.time(23, 59, 59, 900_000), None, datetime.time(0, 0)]
+    columns = {'t': pa.array(of_day, kind), 'tension_l': [1.0] * 3, 'tension_s': [1.0] * 3}
+    parquet.write_table(pa.table(columns), tmp_path / 'run.parquet')
+    recording = load_recording(tmp_path / 'run.parquet')
+    np.testing.assert_allclose(recording.time, [0.0, np.nan, 0.1], atol=1e-9)
+    assert 'over midnight' in recording.notes[0]

@@ -8,14 +8,13 @@ from typing import NamedTuple
 from rclpy.node import Node
 
 from ...estimation.arm_settings import ArmSettings
-from ...files.arm_parameters import ARM_CHANGEABLE, ARM_WIRING, CABLES, cable_table
+from ...files.arm_parameters import ARM_CHANGEABLE, ARM_WIRING, cable_table
 from ...files.arm_settings import (
     arm_in,
     arm_settings_from,
     check_arm_parameters,
     joint_names,
 )
-from ...files.parameter_kinds import SettingError
 from ...physics.arm import Arm
 from .declaration import declare_all
 from .table import NodeTable
@@ -68,22 +67,3 @@ def arm_table(arm: Arm, names: tuple[str, ...]) -> NodeTable[ArmSettings]:
         partial(check_arm_parameters, arm),
         partial(arm_settings_from, arm, names=names),
     )
-
-
-def check_cables(node: Node, arm: Arm) -> None:
-    """Check that what is given of cables is of those that the arm has.
-
-    Raises
-    ------
-    SettingError
-        If a cable, or what is said of it, is not known.
-    """
-    known = {parameter.name for parameter in cable_table(arm.cable_names)}
-    # rclpy has no public view of overrides that nobody declares; a misspelt one would be ignored.
-    for name, given in node._parameter_overrides.items():
-        if name.startswith(CABLES) and name not in known:
-            raise SettingError(
-                f'{name} is {given.value!r}, but there is no such parameter; the cables are '
-                f'{", ".join(arm.cable_names)}, and each has gain, bias, max_tension and '
-                'slack_threshold'
-            )

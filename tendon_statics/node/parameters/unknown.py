@@ -4,12 +4,7 @@ from __future__ import annotations
 
 from rclpy.node import Node
 
-from ...files.arm_parameters import ARM_PARAMETERS, CABLES
-from ...files.driver_parameters import DRIVER_PARAMETERS
-from ...files.estimator_parameters import known_names
-from ...files.view_parameters import VIEW_PARAMETERS
-
-QOS = 'qos_overrides.'
+from ...files.known_parameters import QOS, unknown_names
 
 
 def warn_of_unknown_parameters(node: Node) -> None:
@@ -17,16 +12,14 @@ def warn_of_unknown_parameters(node: Node) -> None:
 
     One file or list may serve all nodes, so those of the others are left alone.
     """
-    of_others = (*DRIVER_PARAMETERS, *VIEW_PARAMETERS, *ARM_PARAMETERS)
-    names = known_names() | {of.name for of in of_others}
+    given = node._parameter_overrides
     # Driver and view have no QoS to override, an estimator has some.
     has_qos = any(name.startswith(QOS) for name in node._parameters)
-    left_alone = (CABLES,) if has_qos else (CABLES, QOS)
-    unknown = [
-        name
-        for name in node._parameter_overrides
-        if not (node.has_parameter(name) or name in names or name.startswith(left_alone))
+    doubted = [
+        *unknown_names(given),
+        *(name for name in given if has_qos and name.startswith(QOS)),
     ]
+    unknown = [name for name in given if name in doubted and not node.has_parameter(name)]
     if unknown:
         node.get_logger().warning(
             f'Parameters that this node does not have, ignored: {", ".join(unknown)}'

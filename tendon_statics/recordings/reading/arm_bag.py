@@ -53,7 +53,7 @@ def load_arm_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> 
     beside = find_beside(bag, topics)
     _add_angles(beside, bag, measured, topics.arm_joints)
     skew = round(min(topics.max_skew * 1e9, END_OF_TIME))
-    times, clocked = clocked_times([tensions.messages, beside.messages], topics.clock, skew)
+    times, clocked = clocked_times(tensions, beside, topics, skew)
     samples = tension_samples(tensions, times, clocked, topics)
     at = np.array([sample.time for sample in samples], dtype=np.int64)
     origin = int(at.min())

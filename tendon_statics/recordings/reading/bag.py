@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from ..recording import Recording
 from ..session import OF_LOAD
 from .bag_beside import Beside, default_beside, find_beside, named_beside
 from .bag_storage import END_OF_TIME, Message, Messages, read_messages
-from .bag_tensions import find_tensions, tension_samples
+from .bag_tensions import TensionMessages, find_tensions, tension_samples
 from .clock import Clocked, Stamped, Times, common_clock
 from .topics import DEFAULT_PAIR, DEFAULT_TENSIONS, BagTopics, full_name
 
@@ -49,7 +49,7 @@ def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Reco
     tensions = find_tensions(bag, names, topics)
     beside = find_beside(bag, topics)
     skew = round(min(topics.max_skew * 1e9, END_OF_TIME))
-    times, clocked = clocked_times([tensions.messages, beside.messages], topics.clock, skew)
+    times, clocked = clocked_times(tensions, beside, topics, skew)
     samples = tension_samples(tensions, times, clocked, topics)
     at = np.array([sample.time for sample in samples], dtype=np.int64)
     origin = int(at.min())
@@ -103,22 +103,25 @@ def joined_to(
 
 
 def clocked_times(
-    used: Sequence[Mapping[str, Sequence[Message]]], clock: str, skew: int
+    tensions: TensionMessages, beside: Beside, topics: BagTopics, skew: int
 ) -> tuple[dict[int, int], Clocked]:
     """Return the time of every message, by its order, as `common_clock` chooses it, and how.
 
     One topic may tell more than one thing.
     """
     on: dict[str, dict[int, Message]] = {}
-    for messages_by_topic in used:
+    for messages_by_topic in (tensions.messages, beside.messages):
         for topic, messages in messages_by_topic.items():
             on.setdefault(topic, {}).update((message.order, message) for message in messages)
     ordered = {topic: sorted(messages) for topic, messages in on.items()}
     stamped = {
-        topic: Stamped.of((on[topic][order].stamp, on[topic][order].log_time) for order in orders)
+        topic: Stamped.of(
+            ((on[topic][order].stamp, on[topic][order].log_time) for order in orders),
+            tensions.streams(topic, orders, topics.cable_names),
+        )
         for topic, orders in ordered.items()
     }
-    clocked = common_clock(stamped, clock, skew)
+    clocked = common_clock(stamped, topics.clock, skew)
     by_order = {
         order: time
         for topic, orders in ordered.items()

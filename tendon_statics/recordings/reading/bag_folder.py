@@ -17,6 +17,12 @@ STORAGES = ('.mcap', '.db3')
 BAG_ENDINGS = (*STORAGES, '.bag')
 """Of a bag that is one file; the last is of ROS 1"""
 
+WAL = '-wal'
+"""Ending of the log in which SQLite keeps what has not yet come to the file itself"""
+
+JOURNAL = '-journal'
+"""Ending of the file in which SQLite keeps what a change that is not finished has overwritten"""
+
 
 @dataclasses.dataclass
 class BagFolder:
@@ -48,18 +54,25 @@ def is_bag_folder(folder: Path, names: Collection[str]) -> bool:
     return bool(files) and all(map(numbered.fullmatch, files))
 
 
-def files_of_bag(folder: Path) -> list[Path]:
-    """All files in a folder that may tell what is in its bag."""
+def files_of_bag(path: Path) -> list[Path]:
+    """All files that may tell what is in a bag: of its folder, or one and what is read with it."""
+    if not path.is_dir():
+        return [path, *_journals(path)]
     return [
-        path
-        for path in sorted(folder.iterdir())
-        if path.is_file() and (is_bag_file(path) or path.name == METADATA or _is_log(path))
+        file
+        for file in sorted(path.iterdir())
+        if file.is_file() and (is_bag_file(file) or file.name == METADATA or _is_journal(file))
     ]
 
 
-def _is_log(path: Path) -> bool:
-    """Whether it is what a killed recorder leaves beside a ``.db3``."""
-    return path.name.endswith('.db3-wal')
+def _journals(path: Path) -> list[Path]:
+    """What a killed recorder leaves beside a ``.db3``."""
+    beside = (path.with_name(f'{path.name}{ending}') for ending in (JOURNAL, WAL))
+    return [file for file in beside if _is_journal(file) and file.is_file()]
+
+
+def _is_journal(path: Path) -> bool:
+    return path.name.endswith((f'.db3{JOURNAL}', f'.db3{WAL}'))
 
 
 def _is_manifest(path: Path) -> bool:

@@ -56,6 +56,24 @@ class TensionMessages:
         """Whether they are tensions for certain, and no readings of load cells."""
         return any(of[0].kind in IN_NEWTONS for of in self.messages.values() if of)
 
+    def streams(
+        self, topic: str, orders: Sequence[int], cables: Sequence[str]
+    ) -> dict[str, list[int]]:
+        """Return the places of the messages about each cable among all that are read of a topic.
+
+        The node holds the stamps of each cable against each other, too. Empty where all messages
+        are about the same cables, or about none.
+        """
+        places = {order: place for place, order in enumerate(orders)}
+        found: dict[str, list[int]] = {cable: [] for cable in cables}
+        pairs = zip(self.messages.get(topic, ()), self.values.get(topic, ()), strict=True)
+        for message, value in pairs:
+            for cable, of in zip(cables, value.values or (), strict=bool(value.values)):
+                if of is not None:
+                    found[cable].append(places[message.order])
+        told = {cable: of for cable, of in found.items() if of}
+        return {} if len({*map(tuple, told.values())}) < 2 else told
+
 
 def find_tensions(bag: Messages, names: Sequence[str], topics: BagTopics) -> TensionMessages:
     """Take the messages that are about the cables from one topic, or two.
@@ -135,16 +153,22 @@ def _nothing(
         )
     field = topics.interface if kind == DYNAMIC else 'effort'
     there: dict[str, None] = {}
+    fields: dict[str, None] = {}
     for message in messages:
         content = message.content
         if kind == DYNAMIC:
-            there.update(dict.fromkeys(content.joint_names))
+            for joint, of in zip(content.joint_names, content.interface_values, strict=False):
+                fields.update(dict.fromkeys(of.interface_names))
+                there.update(dict.fromkeys([joint] * (field in of.interface_names)))
         elif len(content.effort) == len(content.name):
             there.update(dict.fromkeys(content.name))
+    others = '' if field in fields or not fields else f'; {field} is not among {", ".join(fields)}'
+    others += ' (--interface NAME)' * bool(others)
     fault = next((value.fault[1] for value in values if value.fault), '')
     return (
         f'no message on {name} has the {field} of {_listed(topics.cable_names)}'
         f'{f" ({fault})" * bool(fault)}; there is that of: {", ".join(sorted(there)) or "none"}'
+        f'{others}'
     )
 
 

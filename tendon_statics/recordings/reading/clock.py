@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -20,8 +20,7 @@ FAR = 10_000_000_000
 """ns by which the delays of two topics with stamps may differ, as an image takes its time"""
 
 MOST_REPEATED = 0.6
-"""Share of messages with the stamp of that before; two in a row have one where each cable has its
-own message"""
+"""Share of messages with the stamp of that before"""
 
 LATE_IN_A_ROW = 3
 """Messages that may come late together; of more, the clock was set back"""
@@ -36,12 +35,27 @@ class Stamped(NamedTuple):
     """ns, not above 0 where a message has none; as those of types without a header"""
     log_times: Times
     """ns"""
+    streams: Mapping[str, Sequence[int]] = {}
+    """Where messages are about some cables each: what each stream is about → its places. Each has
+    an order of its own, as in the node; messages of none have none"""
 
     @classmethod
-    def of(cls, messages: Iterable[tuple[int, int]]) -> Stamped:
+    def of(
+        cls,
+        messages: Iterable[tuple[int, int]],
+        streams: Mapping[str, Sequence[int]] | None = None,
+    ) -> Stamped:
         """Make it of a stamp and a time of recording for each message."""
         pairs = np.array([*messages], dtype=np.int64).reshape(-1, 2)
-        return cls(pairs[:, 0], pairs[:, 1])
+        return cls(pairs[:, 0], pairs[:, 1], streams or {})
+
+    def by_stream(self, topic: str) -> Iterator[tuple[str, Stamped]]:
+        """Give each stream of the topic, with its name."""
+        if len(self.streams) < 2:
+            yield topic, self
+            return
+        for name, at in self.streams.items():
+            yield f'{topic} of {name}', Stamped(self.stamps[[*at]], self.log_times[[*at]])
 
     @property
     def has_stamps(self) -> bool:
@@ -63,12 +77,22 @@ class Stamped(NamedTuple):
             found.append(f'{without} of {count} messages on {topic} have no stamp')
         if negative:
             found.append(f'{negative} of {count} stamps on {topic} are before 1970')
-        repeated = int((np.diff(self.stamps) == 0).sum())
-        if repeated > MOST_REPEATED * count and not without:
-            found.append(f'{repeated} of {count} stamps on {topic} are that of the message before')
-        if not self._come_late:
-            found += self.steps_back(topic)
+        for name, stream in self.by_stream(topic):
+            count = len(stream.stamps)
+            repeated = int((np.diff(stream.stamps) == 0).sum())
+            if repeated > MOST_REPEATED * count and not without:
+                found.append(
+                    f'{repeated} of {count} stamps on {name} are that of the message before'
+                )
+            if not stream._come_late:
+                found += stream.steps_back(name)
         return found
+
+    def come_late(self, topic: str) -> list[str]:
+        """Say where the stamps of sound streams go back, since messages came late."""
+        return [
+            place for name, stream in self.by_stream(topic) for place in stream.steps_back(name)
+        ]
 
     def jumps(self, topic: str) -> list[str]:
         """Say where sound stamps jump ahead and the times of recording do not."""
@@ -79,7 +103,8 @@ class Stamped(NamedTuple):
         more = f', and at {len(jumps) - 1} more' if len(jumps) > 1 else ''
         return [
             f'the stamps on {topic} jump ahead by {_seconds(ahead[jumps[0]])} s at message '
-            f'{jumps[0] + 2} of {len(self.stamps)}{more}, and the times of recording do not'
+            f'{jumps[0] + 2} of {len(self.stamps)}{more}, and the times of recording do not '
+            '(--clock log takes those)'
         ]
 
     def steps_back(self, topic: str) -> list[str]:
@@ -155,17 +180,22 @@ def common_clock(topics: Mapping[str, Stamped], clock: str, max_skew: int) -> Cl
             )
             continue
         by_stamp.append(topic)
-        notes += objections or times.jumps(topic)
+        notes += objections or [
+            jump for name, stream in times.by_stream(topic) for jump in stream.jumps(name)
+        ]
         if not objections:
             rising.add(topic)
-        if not objections and times.steps_back(topic):
+        places = [] if objections else times.come_late(topic)
+        if places:
             late.add(topic)
-            (place,) = times.steps_back(topic)
-            notes.append(f'{place}, where messages came late: they are put in order')
-    notes += _offsets(topics, by_stamp, max_skew)
+            notes.append(f'{"; ".join(places)}, where messages came late: they are put in order')
+    offsets = [*_offsets(topics, by_stamp, max_skew)]
     if clock == 'auto' and _are_apart(topics, by_stamp):
+        notes += offsets
         notes.append('so all topics go by the times of recording (--clock stamp|log)')
         by_stamp, rising, late = [], set(), set()
+    elif offsets:
+        notes.append(f'{"; ".join(offsets)} (--clock stamp|log)')
     chosen = {
         topic: times.stamps if topic in by_stamp else times.log_times
         for topic, times in topics.items()

@@ -10,7 +10,8 @@ import numpy as np
 
 from ..errors import RecordingError
 from ..session import Floats
-from .time_column import TimeColumn, Times, is_moment, times_of_moments
+from .moments import is_moment
+from .time_column import TimeColumn, Times, times_of_moments
 from .time_titles import TIME_WORDS, time_unit
 
 _COUNTERS = (

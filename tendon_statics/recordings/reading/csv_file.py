@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -13,16 +14,21 @@ from ..errors import RecordingError
 from ..progress import Progress, unseen
 from .clock_like import Candidate, may_be_clock
 from .columns import Column, Columns, find_columns
+from .moments import MOMENTS, is_moment, is_of_day
 from .table import Table
 from .table_options import TableOptions
 from .text_form import recognise
 from .text_lines import DECIMAL_COMMA, TextForm, bare, no_utf_8
-from .time_column import MOMENTS, Times, is_moment, is_of_day, times_of, times_of_moments
+from .time_column import Times, times_of, times_of_moments
 
 LINE_ENDS = (b'\n', b'\r')
 
-MISSING = {'', 'na', 'n/a', '#n/a', '<na>', 'null', 'none', '-nan', '-1.#ind', '1.#qnan'}
-"""What programs write for a missing number, besides nan"""
+MISSING = re.compile(
+    r'|n/?a|n\.a\.|<na>|null|none|missing|-?nan(\(\w+\))?|-?1\.#(ind|qnan|snan|inf)|#[\w/]+[!?]?|-+',
+    re.IGNORECASE,
+)
+"""What programs write for a number that is missing, or that they cannot compute: Excel ``#N/A``,
+``#NV`` or ``#DIV/0!``, C ``1.#QNAN`` or ``nan(ind)``"""
 
 MOST_SHOWN = 80
 """Characters of a damaged line that are shown"""
@@ -63,6 +69,8 @@ class _Rows:
         self._times: list[float] = []
         self._nanoseconds: list[float] = []
         self._states: list[str] = []
+        self._numbers: list[int] = []
+        """Of the lines"""
         self._damage: list[str] = []
         self._shortest = 0  # last field so far, in characters
         self._is_moment: bool | None = None
@@ -98,6 +106,7 @@ class _Rows:
             )
             return
         self._shortest = min(self._shortest or length, length)
+        self._numbers.append(number)
         for kept, value in zip(self._values.values(), row, strict=True):
             kept.append(value)
         if isinstance(time, str):
@@ -138,7 +147,10 @@ class _Rows:
 
     def _clock(self) -> tuple[Times | None, str | None]:
         """Return the times, or the title of what behaves like a clock and is not one for sure."""
-        column = self._columns.time
+        column, step = self._columns.time, self._form.step
+        if column is None and step is not None:
+            lines = np.array(self._numbers) - self._form.rows[0][0]
+            return Times(step * lines, 0, f'time: {step:g} s from row to row, by Delta_X'), None
         if column is None:
             return self._found_clock()
         if self._is_moment:
@@ -194,7 +206,7 @@ class _Rows:
         return column.factor * self._plain(fields[column.place])
 
     def _plain(self, text: str) -> float:
-        if text.casefold() in MISSING:
+        if MISSING.fullmatch(text):
             return math.nan
         number = text
         if self._form.decimal == ',':

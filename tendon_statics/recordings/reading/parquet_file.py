@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,12 +14,14 @@ from ..progress import Progress, unseen
 from ..session import Floats
 from .clock_like import behaves_like_clock, may_be_clock
 from .columns import find_columns
+from .moments import UNKNOWN
 from .table import Table
 from .table_options import TableOptions
 from .time_column import (
     TimeColumn,
     Times,
     times_of,
+    times_of_day,
     times_of_moments,
     times_of_nanoseconds,
 )
@@ -43,7 +45,8 @@ def load_parquet(
     with file:
         titles = list(file.schema_arrow.names)
         columns = find_columns(titles, options)
-        time = columns.time or _moments(file.schema_arrow, columns.others)
+        moments = [] if columns.time else _moments(file.schema_arrow, columns.others)
+        time = moments[0] if len(moments) == 1 else columns.time
         places = [column.place for column in columns.numbers.values()]
         may_be = [
             place
@@ -78,6 +81,11 @@ def load_parquet(
 
     def times(column: TimeColumn) -> Times:
         values = table[titles[column.place]]
+        if pa.types.is_dictionary(values.type):
+            values = values.cast(values.type.value_type)
+        if pa.types.is_time(values.type):
+            of_day = values.cast(pa.time64('ns')).cast(pa.int64()).fill_null(UNKNOWN)
+            return times_of_day(column, of_day.to_numpy())
         if pa.types.is_timestamp(values.type) or pa.types.is_date(values.type):
             moments = values.cast(pa.timestamp('ns'), safe=False).to_numpy()
             return times_of_nanoseconds(column, moments.astype('datetime64[ns]').astype(np.int64))
@@ -89,6 +97,12 @@ def load_parquet(
         rest = None if column.nanoseconds is None else numbers(column.nanoseconds)
         return times_of(column, numbers(column.place), rest)
 
+    def clocks() -> Iterator[str]:
+        """Titles of what behaves like a clock, where there are no times for sure."""
+        if time is None:
+            yield from (column.title for column in moments)
+            yield from (titles[place] for place in may_be if behaves_like_clock(numbers(place)))
+
     state = None
     if columns.state is not None:
         state = [str(value or '') for value in table[titles[columns.state]].to_pylist()]
@@ -97,20 +111,19 @@ def load_parquet(
         columns,
         {name: numbers(column.place) * column.factor for name, column in columns.numbers.items()},
         None if time is None else times(time),
-        next((titles[place] for place in may_be if behaves_like_clock(numbers(place))), None),
+        next(clocks(), None),
         state,
         damage=damage,
     )
 
 
-def _moments(schema: Any, others: Sequence[int]) -> TimeColumn | None:
-    """The only column of moments, as the index that pandas has written, whatever it is called."""
-    found = [
+def _moments(schema: Any, others: Sequence[int]) -> list[TimeColumn]:
+    """Columns of moments, whatever they are called; one alone is the index of pandas."""
+    return [
         TimeColumn(place, schema.field(place).name)
         for place in others
         if str(schema.field(place).type).startswith('timestamp')
     ]
-    return found[0] if len(found) == 1 else None
 
 
 def _is_number(kind: Any) -> bool:

@@ -12,14 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import RecordingError
+from .bag_folder import JOURNAL, WAL
 from .bag_record import UNKNOWN_TYPE, Record
 from .unwritten import copy_with_others, unwritten_places
-
-WAL = '-wal'
-"""Ending of the log in which SQLite keeps what has not yet come to the file itself"""
-
-JOURNAL = '-journal'
-"""Ending of the file in which SQLite keeps what a change that is not finished has overwritten"""
 
 JOURNAL_MAGIC = b'\xd9\xd5\x05\xf9\x20\xa1\x63\xd7'
 """What a journal begins with that is still to be undone"""

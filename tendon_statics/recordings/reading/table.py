@@ -38,6 +38,9 @@ class Table(NamedTuple):
             'unknown_times': why,
             'time_origin': 0 if times is None else times.origin,
             'in_newtons': self.columns.in_newtons,
+            'marked': frozenset(
+                name for name, column in self.columns.numbers.items() if column.has_unit
+            ),
             'name': self.name,
             'damage': tuple(self.damage),
             'notes': (*self.notes, *said),

@@ -27,6 +27,8 @@ class TextForm(NamedTuple):
     rows: list[Line]
     notes: list[str]
     """What was recognised that differs from plain CSV"""
+    step: float | None = None
+    """s from line to line, where the rows have no times"""
 
     def fields(self, line: bytes) -> list[str]:
         """Split a row.

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from ..errors import RecordingError
 from ..session import Floats
+from .moments import UNKNOWN, has_zone, is_iso, is_of_day, is_span, nanoseconds_of
 from .time_titles import RANK_OF_STAMPS, parse_time_title, place_of_date, place_of_nanoseconds
 from .units import TIME
 
@@ -17,16 +17,11 @@ _EPOCHS = ((1e17, 1e19, 'ns'), (1e14, 1e17, 'us'), (1e11, 1e14, 'ms'))
 """Between which a time, if since 1970, is in that unit: in a larger one it would lie beyond the
 year 5000"""
 
-_CLOCK = r'(?P<clock>\d{1,2}:\d\d(?::\d\d(?:[.,]\d{1,9})?)?)'
-_DAY = (
-    r'(?:(?P<year>\d{4})[-/](?P<month>\d\d)[-/](?P<day>\d\d)'
-    r'|(?P<german>\d{1,2}\.\d{1,2}\.\d{4}))'
-)
-_MOMENT = re.compile(rf'(?:{_DAY}(?:T|,?\s+))?{_CLOCK}\s*(?P<zone>Z|UTC|[+-]\d\d:?\d\d)?')
-"""A date and time of day, or a time of day alone"""
+DAY = 86_400_000_000_000
+"""ns"""
 
-MOMENTS = '2026-11-27T10:00:00.5, 27.11.2026 10:00:00,5 or 10:00:00.5'
-"""How dates and times may be written, for people"""
+MIDNIGHT = DAY // 24
+"""ns that a time of day, which falls by nearly a day, may have gone on over midnight"""
 
 
 class TimeColumn(NamedTuple):
@@ -120,70 +115,47 @@ def times_of(column: TimeColumn, values: Floats, nanoseconds: Floats | None = No
     return Times(seconds, 0, note)
 
 
-def is_moment(text: str) -> bool:
-    """Whether a field is a date and time, or a time of day."""
-    return _MOMENT.fullmatch(text.strip()) is not None
-
-
-def is_of_day(text: str) -> bool:
-    """Whether a field is a time of day without a date."""
-    match = _MOMENT.fullmatch(text.strip())
-    return match is not None and match['year'] is None and match['german'] is None
-
-
 def times_of_moments(column: TimeColumn, texts: Sequence[str]) -> Times:
-    """Turn dates and times, or times of day, into times in s; an empty one is NaN.
+    """Turn dates and times, times of day or spans into times in s; an empty one is NaN.
 
     Raises
     ------
     RecordingError
-        If one is something else.
+        If one is something else, or may be of two days.
     """
-    moments = [_moment(text.strip(), column) for text in texts]
-    nanoseconds = np.array(moments, dtype='datetime64[ns]').astype(np.int64)
+    nanoseconds = nanoseconds_of(texts, column.title)
     first = next((text for text in texts if text.strip()), '')
     if is_of_day(first):
-        return _since_first(
-            nanoseconds, f'time: the column {column.title}, times of day'
-        )._replace(origin=0)
-    is_iso = '-' in first[:5]
-    without_zone = any(text.strip() and not _has_zone(text) for text in texts)
+        return times_of_day(column, nanoseconds)
+    if is_span(first):
+        spans = f'time: the column {column.title}, of spans'
+        return _since_first(nanoseconds, spans)._replace(origin=0)
+    without_zone = any(text.strip() and not has_zone(text) for text in texts)
     return _since_first(
         nanoseconds,
         f'time: the column {column.title}, dates and times'
-        + (' of ISO 8601' if is_iso else '')
+        + (' of ISO 8601' if is_iso(first) else '')
         + (', taken as UTC' if without_zone else ''),
     )
 
 
-def _has_zone(text: str) -> bool:
-    match = _MOMENT.fullmatch(text.strip())
-    return match is not None and match['zone'] is not None
+def times_of_day(column: TimeColumn, nanoseconds: np.ndarray) -> Times:
+    """Turn times of day in ns into times in s; the least of all numbers is NaN.
 
-
-def _moment(text: str, column: TimeColumn) -> Any:
-    match = _MOMENT.fullmatch(text)
-    if match is None:
-        if text:
-            raise RecordingError(
-                f'{text!r} in the column {column.title} is no time; it may be as in {MOMENTS}'
-            )
-        return np.datetime64('NaT', 'ns')
-    date = '-'.join(match.group('year', 'month', 'day')) if match['year'] else '1970-01-01'
-    if match['german']:
-        day, month, year = match['german'].split('.')
-        date = f'{year}-{month:0>2}-{day:0>2}'
-    try:
-        hour, _, rest = match['clock'].replace(',', '.').partition(':')
-        moment = np.datetime64(f'{date}T{hour:0>2}:{rest}', 'ns')
-    except ValueError:
-        raise RecordingError(f'{text!r} in the column {column.title} is no time') from None
-    zone = match['zone']
-    if zone and zone not in ('Z', 'UTC'):
-        sign = 1 if zone[0] == '+' else -1
-        minutes = 60 * int(zone[1:3]) + int(zone[-2:])
-        moment = moment - np.timedelta64(sign * minutes, 'm')
-    return moment
+    Where they fall by nearly a day, and nowhere by less, it was midnight.
+    """
+    known = nanoseconds != UNKNOWN
+    of_day = nanoseconds[known]
+    steps = np.diff(of_day)
+    midnights = (steps <= MIDNIGHT - DAY) & (steps > -DAY)
+    note = f'time: the column {column.title}, times of day'
+    if midnights.any() and (steps[~midnights] >= 0).all():
+        of_day = of_day + DAY * np.concatenate([[0], np.cumsum(midnights)])
+        count = int(midnights.sum())
+        note += f', over midnight{f" {count} times" * (count > 1)}, where they begin anew'
+    nanoseconds = nanoseconds.copy()
+    nanoseconds[known] = of_day
+    return _since_first(nanoseconds, note)._replace(origin=0)
 
 
 def times_of_nanoseconds(column: TimeColumn, nanoseconds: np.ndarray) -> Times:
@@ -192,7 +164,7 @@ def times_of_nanoseconds(column: TimeColumn, nanoseconds: np.ndarray) -> Times:
 
 
 def _since_first(nanoseconds: np.ndarray, note: str) -> Times:
-    known = nanoseconds != np.iinfo(np.int64).min
+    known = nanoseconds != UNKNOWN
     origin = int(nanoseconds[known][0]) if known.any() else 0
     seconds = np.where(known, 1e-9 * (nanoseconds - origin).astype(np.float64), np.nan)
     return Times(seconds, origin, note)

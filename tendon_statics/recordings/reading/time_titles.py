@@ -37,7 +37,9 @@ _ALONE = {
 RANK_OF_STAMPS = 2
 
 _RANKS = {
-    **dict.fromkeys(_listed('time zeit messzeit laufzeit uhrzeit temps tiempo tijd'), 0),
+    **dict.fromkeys(
+        _listed('time zeit messzeit laufzeit uhrzeit temps tiempo tempo tijd tid czas'), 0
+    ),
     **dict.fromkeys(_listed('elapsed uptime walltime systime simtime rostime unixtime'), 0),
     **dict.fromkeys(('timestamp', 'timestamps', 'zeitstempel'), 1),
     'stamp': RANK_OF_STAMPS,

@@ -22,15 +22,26 @@ class Kind(NamedTuple):
     """Unit → what one of it is in SI, which comes first and needs no mention"""
     foreign: str
     """Other names of units, which are not read, but are meant for one where they stand"""
+    names: Mapping[str, str] = {}
+    """Those of them, in small letters, that are names of a unit for sure → the unit"""
 
 
 FORCE = Kind(
     {'N': 1.0, 'mN': 1e-3, 'kN': 1e3, 'gf': 9.80665e-3, 'kgf': 9.80665},
-    'newton newtons g kg lb lbs lbf oz ozf',
+    'newton newtons millinewton millinewtons g kg lb lbs lbf oz ozf',
+    {
+        **dict.fromkeys(('newton', 'newtons'), 'N'),
+        **dict.fromkeys(('millinewton', 'millinewtons'), 'mN'),
+    },
 )
 ANGLE = Kind(
     {'rad': 1.0, 'mrad': 1e-3, 'deg': math.radians(1.0), '°': math.radians(1.0)},
-    'degree degrees radian radians milliradians',
+    'degree degrees radian radians milliradian milliradians',
+    {
+        **dict.fromkeys(('degree', 'degrees'), 'deg'),
+        **dict.fromkeys(('radian', 'radians'), 'rad'),
+        **dict.fromkeys(('milliradian', 'milliradians'), 'mrad'),
+    },
 )
 TIME = Kind(
     {'s': 1.0, 'ms': 1e-3, 'us': 1e-6, 'ns': 1e-9, 'min': 60.0, 'h': 3600.0, 'd': 86400.0}, ''
@@ -38,6 +49,7 @@ TIME = Kind(
 PRESSURE = Kind(
     {'Pa': 1.0, 'kPa': 1e3, 'MPa': 1e6},
     'hPa pascal pascals kilopascals megapascals bar mbar psi atm torr mmHg',
+    {'pascal': 'Pa', 'pascals': 'Pa', 'kilopascals': 'kPa', 'megapascals': 'MPa'},
 )
 TEXT = Kind({}, '')
 """That of words"""
@@ -79,8 +91,8 @@ class Quantities:
             if name != quantity and pattern.fullmatch(title):
                 raise RecordingError(
                     f'there is a column {title!r}, which would be overlooked: write '
-                    f'{self._as_to_write(quantity, title)}; what is something else needs another '
-                    'name'
+                    f'{self._as_to_write(quantity, title)}, or say --columns '
+                    f'{quantity}="{title}"; what is something else needs another name'
                 )
         return name, 1.0
 
@@ -111,7 +123,9 @@ class Quantities:
         units = [*self.kinds[quantity].units]
         if not units:
             return quantity
-        meant = [unit for unit in units if re.search(rf'[\W_]{unit}\b', title)]
+        names = {**dict(zip(units, units, strict=True)), **self.kinds[quantity].names}
+        words = ['°' if '°' in title else '', *re.split(r'[\W_]+', title)]
+        meant = [unit for word in words if (unit := names.get(word) or names.get(word.casefold()))]
         return (
             f'{quantity} or, if it is not in {units[0]}, its unit in brackets, '
             f'{quantity} [{(meant or units[1:])[0]}] (there are {", ".join(units)})'
@@ -174,6 +188,11 @@ def of_arm(arm: Arm) -> Quantities:
             'tip_force': ('tip_force_x', 'tip_force_z'),
         },
     )
+
+
+def common_unit(label: str, kind: Kind) -> str | None:
+    """Return a unit of a kind as it is written here, by its sign or name; None if it is none."""
+    return label if label in kind.units else kind.names.get(label.casefold())
 
 
 def split_title(title: str) -> tuple[str, str | None]:
