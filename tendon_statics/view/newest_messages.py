@@ -7,9 +7,18 @@ from typing import Any
 from rclpy.callback_groups import CallbackGroup
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from ..node.inputs.waiting_messages import waiting_messages
+
+FITS_ALL = {'reliability': ReliabilityPolicy.BEST_EFFORT}
+"""Goes with every publisher, and never holds one up"""
+
+LATCHED = {
+    'reliability': ReliabilityPolicy.RELIABLE,  # else the middleware sends nothing from before
+    'durability': DurabilityPolicy.TRANSIENT_LOCAL,
+}
+"""Goes with publishers that keep what they said, and with no others"""
 
 
 class _LeftAlone(CallbackGroup):
@@ -35,17 +44,26 @@ class NewestMessages:
     ----------
     depth : int
         How many of the newest messages are kept.
+    is_latched : bool
+        Whether those count too that came before, of a publisher that keeps them.
     """
 
-    def __init__(self, node: Node, message_type: type, topic: str, depth: int = 1) -> None:
+    def __init__(
+        self,
+        node: Node,
+        message_type: type,
+        topic: str,
+        depth: int = 1,
+        *,
+        is_latched: bool = False,
+    ) -> None:
         self._node = node
         self._depth = depth
         self._subscription = node.create_subscription(
             message_type,
             topic,
             lambda _message: None,
-            # Best effort goes with every publisher, and never holds one up.
-            QoSProfile(depth=depth, reliability=ReliabilityPolicy.BEST_EFFORT),
+            QoSProfile(depth=depth, **(LATCHED if is_latched else FITS_ALL)),
             callback_group=_LeftAlone(),
             event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
         )
@@ -57,3 +75,11 @@ class NewestMessages:
     def close(self) -> None:
         """Hear no more."""
         self._node.destroy_subscription(self._subscription)
+
+
+def has_volatile_publisher(node: Node, topic: str) -> bool:
+    """Whether somebody publishes there who keeps nothing for those who come later."""
+    return any(
+        publisher.qos_profile.durability is DurabilityPolicy.VOLATILE
+        for publisher in node.get_publishers_info_by_topic(topic)
+    )

@@ -120,6 +120,13 @@ def assert_is_published(path, topics):
         assert (topics[topic], field) == ('std_msgs/String', 'data'), path
 
 
+PLOTJUGGLER_SETTINGS = {
+    *('use_header_stamp', 'discard_large_arrays', 'max_array_size'),
+    *('boolean_strings_to_number', 'remove_suffix_from_strings', 'selected_topics'),
+}
+"""Those of its subscriber to topics, `RosParserConfig` in plotjuggler-ros-plugins 2.1"""
+
+
 def test_plotjuggler_plots_fields_that_are_published(topics):
     root = ElementTree.parse(SHARE / 'layouts' / 'plotjuggler.xml').getroot()
     curves = [curve.attrib['name'] for curve in root.iter('curve')]
@@ -127,8 +134,13 @@ def test_plotjuggler_plots_fields_that_are_published(topics):
     for curve in curves:
         topic, _, field = curve.rpartition('/')
         assert_is_published(f'{topic}.{field}', topics)
-    for topic in root.iter('topic'):
-        assert topic.attrib['name'] in topics
+    (plugin,) = root.iter('plugin')
+    assert plugin.attrib['ID'] == root.find('previouslyLoaded_Streamer').attrib['name']
+    # As its loader reads them: one attribute each, and all topics in one.
+    given = {setting.tag: setting.attrib for setting in plugin}
+    assert all(set(values) == {'value'} for values in given.values())
+    assert set(given) == PLOTJUGGLER_SETTINGS
+    assert set(given['selected_topics']['value'].split(';')) <= set(topics)
     for splitter in root.iter('DockSplitter'):
         shares = [float(share) for share in splitter.attrib['sizes'].split(';')]
         assert len(shares) == len(splitter) == int(splitter.attrib['count'])
@@ -149,6 +161,7 @@ def test_foxglove_plots_fields_that_are_published(topics):
     for path in paths:
         assert_is_published(path, topics)
     assert '/estimator/markers' in panels['3D!unit']['topics']
+    assert all('title' not in panel for panel in panels.values())  # it reads foxglovePanelTitle
 
     def shown(part):
         return [part] if isinstance(part, str) else shown(part['first']) + shown(part['second'])

@@ -11,8 +11,10 @@ import pytest
 from browser import BrowserMissingError, chromium
 from live_page import LivePage, forwarded, view_url
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from ros_domain import free_domain, in_domain
 from ros_programs import Program, spinning, wait_for
+from std_msgs.msg import String
 
 from tendon_statics import default_design_path, load_design, solve
 from tendon_statics.files.installed_files import installed_config
@@ -276,6 +278,32 @@ def test_invalid_and_stale_input_is_said(rig, browser):
         with rig.driving('third', tensions=PUBLISHED):
             page.wait_for_words('17.14°')
         page.wait_for_words('No valid tensions come any more', 'STALE')
+
+
+def test_a_page_that_is_opened_later_hears_what_holds(rig, browser):
+    with rig.running('fifth', 'estimator'):
+        with rig.driving('fifth', tensions=PUBLISHED), LivePage(browser, rig.url) as page:
+            page.wait('model("estimator").options.includes("/fifth/estimator")')
+            page.choose('/fifth/estimator')
+            page.wait_for_words('17.14°')
+        latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        said = []
+        rig.node.create_subscription(String, '/fifth/estimator/regime', said.append, latched)
+        wait_for('the estimator to miss its tensions', lambda: said and said[-1].data == 'stale')
+        with LivePage(browser, rig.url) as page:
+            page.wait('model("estimator").options.includes("/fifth/estimator")')
+            page.choose('/fifth/estimator')
+            page.wait_for_words('No valid tensions come any more')
+
+
+def test_a_regime_that_nobody_keeps_is_heard_too(rig, browser):
+    volatile = ('-p', 'qos_overrides./sixth/estimator/regime.publisher.durability:=volatile')
+    with rig.running('sixth', 'estimator', *volatile), LivePage(browser, rig.url) as page:
+        page.wait('model("estimator").options.includes("/sixth/estimator")')
+        page.choose('/sixth/estimator')
+        with rig.driving('sixth', tensions=PUBLISHED):
+            page.wait_for_words('17.14°')
+        page.wait_for_words('No valid tensions come any more')
 
 
 def test_the_view_ends_by_a_signal_and_the_page_says_so(rig, browser):
