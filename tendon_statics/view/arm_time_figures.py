@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from bokeh.core.validation import silence
+from bokeh.core.validation.warnings import MISSING_RENDERERS
 from bokeh.models import ColumnDataSource, DataRange1d, GlyphRenderer
 from bokeh.palettes import viridis
 from bokeh.plotting import figure
 
 from .over_time import OverTime
+
+# Until an arm has told how many joints it has, its figures have no lines.
+silence(MISSING_RENDERERS)
 
 TIP_COLOURS = {'x': '#0072B2', 'z': '#D55E00'}
 

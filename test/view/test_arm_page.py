@@ -58,8 +58,9 @@ def url(played):
             Program.running('pulley_driver', '--ros-args', '-r', '__ns:=/unit'),
         ):
             stack.enter_context(program)
-        view = Program.running('view', '--ros-args', '-p', 'port:=0')
-        yield view_url(stack.enter_context(view))
+        view = stack.enter_context(Program.running('view', '--ros-args', '-p', 'port:=0'))
+        yield view_url(view)
+        assert 'WARN' not in view.output()
 
 
 @pytest.fixture(scope='module')
