@@ -14,7 +14,7 @@ from ..estimation.regimes import INVALID, STALE
 from .design_question import DesignQuestion
 from .estimators_in_sight import Sighting
 from .history import History
-from .newest_messages import NewestMessages, has_volatile_publisher
+from .newest_messages import KeptMessages, NewestMessages
 
 SILENCE = 0.5
 """Seconds without an estimate after which the lines of a page end"""
@@ -45,10 +45,7 @@ class Watch:
         self._names: Sequence[str] = ()
         self._kind = kind = sighting.kind
         self._estimates = NewestMessages(node, kind.estimates, sighting.topic)
-        regimes_on = f'{sighting.name}/{kind.regimes_on}'
-        # It holds until another is said, so the last that was said before counts too.
-        is_latched = not has_volatile_publisher(node, regimes_on)
-        self._regimes = NewestMessages(node, kind.regimes, regimes_on, is_latched=is_latched)
+        self._regimes = KeptMessages(node, kind.regimes, f'{sighting.name}/{kind.regimes_on}')
         # Room for the estimators of a rig, which share the topic.
         self._diagnostics = NewestMessages(node, DiagnosticArray, '/diagnostics', depth=50)
         self._design = DesignQuestion(node, sighting.name, kind)
