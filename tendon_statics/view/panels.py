@@ -42,6 +42,8 @@ class LastMinute:
     def draw(self, watch: Watch) -> None:
         """Send what is new, or all of a history that is another than before."""
         history = watch.history
+        if history.count == 0:
+            return  # It does not have its columns yet.
         drawn, count = self._drawn
         if drawn is not history:
             count = 0

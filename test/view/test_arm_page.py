@@ -60,7 +60,8 @@ def url(played):
             stack.enter_context(program)
         view = stack.enter_context(Program.running('view', '--ros-args', '-p', 'port:=0'))
         yield view_url(view)
-        assert 'WARN' not in view.output()
+        said = view.output()
+        assert not any(word in said for word in ('WARN', 'ERROR', 'Traceback')), said
 
 
 @pytest.fixture(scope='module')

@@ -49,7 +49,8 @@ class Rig:
         for joint in FILES:
             stack.enter_context(self.running(joint, 'estimator', '--params-file', design))
             stack.enter_context(self.driving(joint))
-        self.url = view_url(stack.enter_context(self.running('', 'view', '-p', 'port:=0')))
+        self.view = stack.enter_context(self.running('', 'view', '-p', 'port:=0'))
+        self.url = view_url(self.view)
         self._page = None
 
     def page(self, browser):
@@ -80,7 +81,10 @@ class Rig:
 @pytest.fixture(scope='module')
 def running_rig(tmp_path_factory):
     with free_domain() as domain, in_domain(domain), ExitStack() as stack:
-        yield Rig(tmp_path_factory.mktemp('rig'), stack)
+        rig = Rig(tmp_path_factory.mktemp('rig'), stack)
+        yield rig
+        said = rig.view.output()
+        assert not any(word in said for word in ('WARN', 'ERROR', 'Traceback')), said
 
 
 @pytest.fixture
