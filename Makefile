@@ -25,7 +25,7 @@ setup: $(made)install/.complete ## Install ROS 2 into .venv/ (or use apt's) and 
 
 .PHONY: demo
 demo: setup ## Drive the estimator node over real ROS 2 and print what it publishes (VIEW=1: and show it live; ARM=1: an arm)
-	@$(run) python tools/$(if $(ARM),demo_arm.py,demo.py$(if $(VIEW), && python tools/demo_view.py))
+	@$(run) python tools/$(if $(ARM),demo_arm.py,demo.py)$(if $(VIEW), && python tools/demo_view.py $(if $(ARM),--arm))
 
 # Byte code is kept whatever the shell says, else each worker and each program that a test starts
 # compiles everything again.

@@ -39,6 +39,7 @@ LEVELS = {
 
 WHAT_NEXT = """
 What next:
+  make demo VIEW=1                                     a unit that is followed, live in the browser
   source tools/env.bash                                in bash: the programs on the PATH, then
   tendon-statics solve --tension-l 1 --tension-s 2     the same without ROS
   docs/tutorials/first_estimate.md                     a quarter of an hour with model and node

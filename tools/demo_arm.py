@@ -31,6 +31,7 @@ SHOWN = 14
 
 WHAT_NEXT = """
 What next:
+  make demo ARM=1 VIEW=1                   the arm again and again, live in the browser
   source tools/env.bash                    in bash: the programs on the PATH, then
   tendon-statics arm report config/arm.yaml config/arm_tensions.csv --output arm.html
                                            the same session as a page, with figures

@@ -19,7 +19,9 @@ from tendon_statics import (
 from tendon_statics.command_line.figures import (
     BLUE,
     GREEN,
-    ORANGE,
+    HOLDS,
+    TENSION_L,
+    TENSION_S,
     VERMILION,
     write_figure,
 )
@@ -32,16 +34,13 @@ UNIT = load_design(default_design_path())
 WITH_BACKBONE = replace(UNIT, stiffness=0.03)
 """A unit that bends back, so that it does not run from stop to stop"""
 
-HELD_AT = '#cfe3f1'
-"""Colour of all that friction can hold, in every figure of the project"""
-
 
 def draw_margins(drawing: Figure) -> None:
     """Draw the share of friction that each angle asks for, at three tensions of cable s."""
     axes = drawing.subplots()
     stop = UNIT.max_bend_angle
     angles = np.linspace(-stop, stop, 121)
-    axes.axhspan(-1.0, 1.0, color=HELD_AT)
+    axes.axhspan(-1.0, 1.0, color=HOLDS)
     axes.text(-28.5, 0.03, 'friction can hold', color=BLUE, va='bottom')
     axes.text(-28.5, 1.19, 'it cannot: the unit slides towards s', color=VERMILION, va='bottom')
     for tension, colour, line, word in (
@@ -82,11 +81,11 @@ def draw_path(drawing: Figure) -> None:
         low.append(degrees(held[0][0]))
         high.append(degrees(held[-1][1]))
     above, below = drawing.subplots(2, sharex=True, height_ratios=(1.0, 2.2))
-    above.plot(time, pulled, color=ORANGE, label='T_s')
-    above.plot(time, np.full_like(time, 1.0), color=GREEN, label='T_l')
+    above.plot(time, pulled, color=TENSION_S, label='T_s')
+    above.plot(time, np.full_like(time, 1.0), color=TENSION_L, label='T_l')
     above.set_ylabel('tension [N]')
     above.legend(loc='lower center', bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
-    below.fill_between(time, low, high, color=HELD_AT, label='angles that friction can hold')
+    below.fill_between(time, low, high, color=HOLDS, label='angles that friction can hold')
     below.plot(time, path, color=VERMILION, label='the unit')
     moves = np.abs(np.diff(path)) > 1e-9
     for first, last in _runs(~moves):

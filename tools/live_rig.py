@@ -1,4 +1,4 @@
-"""An estimator that follows a unit through the recorded session, and a live page of it."""
+"""An estimator that follows a unit, or an arm, through a session, and a live page of it."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from ros_programs import Program, wait_for
 
 from tendon_statics.files.installed_files import installed_config
 
-SESSION_RATE = 10.0
-"""Rows per second at which the session is lively and still to be followed"""
+SESSION_RATE, ARM_RATE = 10.0, 5.0
+"""Rows per second at which a session is lively and still to be followed: of a unit, of an arm"""
 
 
 class LiveRig(NamedTuple):
@@ -26,33 +26,42 @@ class LiveRig(NamedTuple):
 
 @contextmanager
 def live_rig(
-    *, port: int = 0, rate: float = SESSION_RATE, estimation: str = 'filtering'
+    *,
+    port: int = 0,
+    rate: float | None = None,
+    estimation: str = 'filtering',
+    is_arm: bool = False,
 ) -> Iterator[LiveRig]:
-    """Play the recorded session over and over, on this machine only; it ends with the block.
+    """Play a session over and over, on this machine only; it ends with the block.
 
     Parameters
     ----------
     port : int
         Of the page; 0 for any that is free.
     rate : float
-        Rows per second.
+        Rows per second; None: `SESSION_RATE` or `ARM_RATE`.
     estimation : str
         The estimator's parameter.
+    is_arm : bool
+        The example of an arm and its drive cycle, in place of a unit and the recorded session.
 
     Raises
     ------
     RuntimeError
         If the page cannot be served.
     """
-    session, design = (
-        str(installed_config(name))
-        for name in ('recorded_session.mcap', 'preliminary_design.yaml')
-    )
-    follow = ('--params-file', design, '-p', f'estimation:={estimation}')
-    play = ('-p', f'file:={session}', '-p', f'rate:={rate}')
+    if is_arm:
+        name, session = 'arm_estimator', _installed('arm_tensions.csv')
+        design = ('-p', f'arm_file:={_installed("arm.yaml")}')
+    else:
+        name, session = 'estimator', _installed('recorded_session.mcap')
+        design = ('--params-file', _installed('preliminary_design.yaml'))
+    follow = (*design, '-p', f'estimation:={estimation}')
+    rate = rate or (ARM_RATE if is_arm else SESSION_RATE)
+    play = (*design, '-p', f'file:={session}', '-p', f'rate:={rate}')
     with (
         own_domain(),
-        Program.running('estimator', '--ros-args', *follow) as estimator,
+        Program.running(name, '--ros-args', *follow) as estimator,
         Program.running('pulley_driver', '--ros-args', *play),
         Program.running('view', '--ros-args', '-p', f'port:={port}') as view,
     ):
@@ -61,3 +70,7 @@ def live_rig(
         if not ready:
             raise RuntimeError(view.output().strip())
         yield LiveRig(estimator, view, rest.split()[0])
+
+
+def _installed(name: str) -> str:
+    return str(installed_config(name))

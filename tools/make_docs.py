@@ -31,7 +31,6 @@ from tendon_statics.command_line.main import main as run
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = (
-    'README.md',
     *('docs/arm.md', 'docs/calibration.md', 'docs/command_line.md', 'docs/contact_laws.md'),
     *('docs/filter.md', 'docs/recordings.md'),
     *('docs/model.md', 'docs/node.md', 'docs/node_reference.md', 'docs/rig.md'),

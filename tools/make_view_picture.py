@@ -1,4 +1,4 @@
-"""Make docs/view.png: the live page, as Chromium shows it, after most of a minute."""
+"""Make docs/view.png and docs/view_arm.png: the live page after most of a minute, in Chromium."""
 
 from __future__ import annotations
 
@@ -9,34 +9,50 @@ from pathlib import Path
 from browser import BrowserMissingError, chromium
 from live_rig import live_rig
 from PIL import Image
+from playwright.sync_api import Browser
 
-PICTURE = Path(__file__).resolve().parents[1] / 'docs' / 'view.png'
+DOCS = Path(__file__).resolve().parents[1] / 'docs'
 
 SAMPLES = 500
-"""Drawn before the picture is taken, of which most of a minute has room"""
+"""Drawn before a picture is taken, of which most of a minute has room"""
 
-FULL = f"""(page) => {{
-  const data = (name) => page.get_model_by_name(name).data
-  return data("history").time.length > {SAMPLES} && data("body").angle.length > 0 &&
+OF_UNIT = """
+  data("history").time.length > SAMPLES && data("body").angle.length > 0 &&
     Number.isFinite(data("history").slip_margin.at(-1))
-}}"""
+"""
 """Whether there is a minute to see, and a unit at an angle"""
+
+OF_ARM = """
+  data("arm_history")?.time.length > SAMPLES &&
+    Math.abs(data("arm_history").tip_x.at(-1)) > 10
+"""
+"""Whether there is a minute to see, and an arm that is bent"""
 
 
 def main() -> None:
-    """Write the picture."""
-    with live_rig() as rig, chromium() as browser:
+    """Write the pictures."""
+    with chromium() as browser:
+        take(browser, DOCS / 'view.png', OF_UNIT, is_arm=False)
+        take(browser, DOCS / 'view_arm.png', OF_ARM, is_arm=True)
+
+
+def take(browser: Browser, path: Path, condition: str, *, is_arm: bool) -> None:
+    """Write the picture of the page of a unit or an arm once something holds in the browser."""
+    with live_rig(is_arm=is_arm) as rig:
         page = browser.new_page(viewport={'width': 1280, 'height': 900})
         page.goto(rig.url)
         page.wait_for_function(
-            f'window.Bokeh && Bokeh.documents.length > 0 && ({FULL})(Bokeh.documents[0])',
+            'window.Bokeh && Bokeh.documents.length > 0 && ((data) => '
+            f'{condition.replace("SAMPLES", str(SAMPLES))})'
+            '((name) => Bokeh.documents[0].get_model_by_name(name)?.data)',
             timeout=120e3,
         )
         shot = BytesIO(page.screenshot(full_page=True))
+        page.close()
     # Few colours, of which the rare ones count too: those of the regimes.
     method = Image.Quantize.MAXCOVERAGE
-    Image.open(shot).convert('RGB').quantize(256, method).save(PICTURE, optimize=True)
-    print(f'{PICTURE.name}: {PICTURE.stat().st_size / 1024:.0f} kB')
+    Image.open(shot).convert('RGB').quantize(256, method).save(path, optimize=True)
+    print(f'{path.name}: {path.stat().st_size / 1024:.0f} kB')
 
 
 if __name__ == '__main__':

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..estimation.regimes import REGIME_COLOURS
 from ..physics import Arm, Regime
 from ..physics.arm.shape import joint_centres
 from ..recordings.replay.arm_result import ArmReplay
 from ..recordings.session import Floats
 from .figure_recording import MANY, places_of, regime_bars
-from .figures import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION
+from .figures import BLUE, GREEN, GREY, HOLDS, ORANGE, SKY, VERMILION
 from .options import UsageError
 
 if TYPE_CHECKING:
@@ -28,9 +29,8 @@ COLOURS = (BLUE, ORANGE, GREEN, VERMILION, SKY, GREY)
 MILLIMETRE = 1e3
 
 FILLED = {
-    Regime.HELD.value: '#ffffff',
-    Regime.SLIPPING.value: ORANGE,
-    Regime.DRIVEN_TO_STOP.value: VERMILION,
+    regime.value: REGIME_COLOURS[regime]
+    for regime in (Regime.HELD, Regime.SLIPPING, Regime.DRIVEN_TO_STOP)
 }
 """Regime → what fills the joint"""
 
@@ -82,7 +82,7 @@ def draw_tip(drawing: Figure, replayed: ArmReplay) -> None:
     grid = drawing.add_gridspec(3, 1, height_ratios=(1.2, 0.2 + 0.13 * len(replayed.joints), 1.4))
     of_margins = drawing.add_subplot(grid[0])
     of_regimes = drawing.add_subplot(grid[1], sharex=of_margins)
-    of_margins.axhspan(-1.0, 1.0, color='#e6f1f8', label='friction can hold')
+    of_margins.axhspan(-1.0, 1.0, color=HOLDS, label='friction can hold')
     many = len(replayed.recording) > MANY
     for index, joint in enumerate(replayed.joints):
         style: dict[str, Any] = {'color': _colour(index), 'linewidth': 1.2, 'rasterized': many}

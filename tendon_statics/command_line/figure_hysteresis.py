@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from ..physics import StickSlipTracker, admissible_angles, slip_margin
-from .figures import VERMILION
+from .figures import HOLDS, VERMILION
 from .pair_options import add_pair_options, between, pair_from, setting_title
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
         for angle in angles
     ]
     degrees = [math.degrees(angle) for angle in angles]
-    axes.contourf(differences, degrees, margins, levels=[-1.0, 1.0], colors=['#cfe3f1'])
+    axes.contourf(differences, degrees, margins, levels=[-1.0, 1.0], colors=[HOLDS])
     axes.plot(
         ramp,
         [math.degrees(state.bend_angle or 0.0) for state in states],
@@ -57,7 +57,7 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
         drawstyle='steps-post',
         label='path of the unit: load, unload, load the other way',
     )
-    axes.fill_between([], [], color='#cfe3f1', label='angles that friction can hold')
+    axes.fill_between([], [], color=HOLDS, label='angles that friction can hold')
     axes.plot([0.0], [0.0], 'o', color=VERMILION, markersize=5)
     for share in (0.13, 0.33, 0.42, 0.7, 0.85):
         index = int(share * len(ramp))

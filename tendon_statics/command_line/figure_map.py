@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..estimation.regimes import REGIME_COLOURS
 from ..physics import UPRIGHT, Load, Regime, paper
 from ..physics.batch import REGIME_CODES, EquilibriumBatch
 from ..recordings.session import Floats
+from .figures import pale
 from .options import add_design_option
 from .pair_options import setting_title
 from .sweep import add_grid_options, grid_from
@@ -31,7 +33,7 @@ class _Quantity(NamedTuple):
 
 
 QUANTITIES = {
-    'bend_angle': _Quantity('bend angle θ [°], towards cable s', 'PuOr'),
+    'bend_angle': _Quantity('bend angle θ [°], towards cable s', 'PRGn'),
     'pressure': _Quantity('joint pressure p [Pa]', 'cividis'),
     'sensitivity': _Quantity('bend angle per tension, |∂θ/∂T| [°/N]', 'cividis'),
 }
@@ -73,7 +75,10 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
     axes.grid(visible=False)
 
     has_no_number = {
-        'friction holds: not determined': (answers.regime == REGIME_CODES[Regime.HELD], '#e6e6e6'),
+        'friction holds: not determined': (
+            answers.regime == REGIME_CODES[Regime.HELD],
+            pale(REGIME_COLOURS[Regime.HELD]),
+        ),
         'slack, or the joint not seated': (
             (answers.regime == REGIME_CODES[Regime.SLACK]) | (answers.regime < 0),
             '#7f7f7f',
@@ -82,7 +87,10 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
     if options.quantity != 'pressure':
         # So that they are not taken for the largest angles of an equilibrium.
         at_stop = answers.regime == REGIME_CODES[Regime.DRIVEN_TO_STOP]
-        has_no_number[AT_STOP[options.quantity]] = (at_stop, '#8cc6e8')
+        has_no_number[AT_STOP[options.quantity]] = (
+            at_stop,
+            pale(REGIME_COLOURS[Regime.DRIVEN_TO_STOP]),
+        )
     patches = []
     for label, (where, colour) in has_no_number.items():
         if where.any():

@@ -14,7 +14,7 @@ from ..physics import JointDesign
 from ..recordings.replay.result import Replay
 from ..recordings.replay.slip_tensions import slip_tensions
 from ..recordings.session import Floats, Session
-from .figures import BLUE, GREY, VERMILION
+from .figures import BLUE, GREY, HOLDS, TENSION_L, TENSION_S, VERMILION
 from .options import add_design_option, add_load_options, add_tension_stddev_option
 from .recording_options import (
     add_recording_options,
@@ -75,7 +75,7 @@ def draw_replay(drawing: Figure, design: JointDesign, replayed: Replay) -> None:
 
     _draw_pressures(of_pressure, times, replayed)
 
-    of_margin.axhspan(-1.0, 1.0, color='#e6f1f8', label='friction can hold')
+    of_margin.axhspan(-1.0, 1.0, color=HOLDS, label='friction can hold')
     of_margin.plot(
         *(times, replayed.slip_margin, '.'),
         markersize=2.5,
@@ -103,8 +103,8 @@ def _draw_tensions(axes: Axes, times: Any, design: JointDesign, replayed: Replay
     recording = replayed.recording
     at_slip = slip_tensions(design, replayed) or (None, None)
     for measured, predicted, colour, name in (
-        (recording.tension_l, at_slip[0], BLUE, 'T_l'),
-        (recording.tension_s, at_slip[1], VERMILION, 'T_s'),
+        (recording.tension_l, at_slip[0], TENSION_L, 'T_l'),
+        (recording.tension_s, at_slip[1], TENSION_S, 'T_s'),
     ):
         axes.plot(times, measured, color=colour, linewidth=1.2, label=name)
         if predicted is not None and np.isfinite(predicted).any():

@@ -6,7 +6,7 @@ import argparse
 import math
 from typing import TYPE_CHECKING, Any
 
-from .figures import BLUE, GREEN, ORANGE, VERMILION
+from .figures import BLUE, TENSION_L, TENSION_S, VERMILION
 from .options import UsageError
 from .pair_options import add_pair_options, between, pair_from, pair_title
 
@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SIZE = (6.4, 4.6)
+
+WEIGHT = '#555555'
 
 add_arguments = add_pair_options
 
@@ -97,13 +99,13 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
 
     # Forces: the cables pull along the unit's axis, the weight down.
     pull = 0.9 * top
-    for name, tension, x in (
-        ('l', equilibrium.tension_l, -arm),
-        ('s', equilibrium.tension_s, arm),
+    for name, tension, x, colour in (
+        ('l', equilibrium.tension_l, -arm, TENSION_L),
+        ('s', equilibrium.tension_s, arm, TENSION_S),
     ):
         longest = max(equilibrium.tension_l, equilibrium.tension_s)
         end = turned(x, base - 0.35 * pull - 0.65 * pull * tension / longest)
-        arrow(turned(x, top), end, GREEN)
+        arrow(turned(x, top), end, colour)
         axes.annotate(
             f'T_{name} = {tension:g} N',
             end,
@@ -111,13 +113,12 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
             textcoords='offset points',
             ha='center',
             va='top',
-            color=GREEN,
         )
     centre = turned(0.0, com)
     down = math.hypot(load.gravity_direction[0], load.gravity_direction[2])
     if down > 0.05:  # the rest of gravity goes into the picture
-        arrow(centre, (centre[0], centre[1] - 0.55 * r * down), ORANGE)
-    axes.plot(*centre, 'o', color=ORANGE, markersize=6)
+        arrow(centre, (centre[0], centre[1] - 0.55 * r * down), WEIGHT)
+    axes.plot(*centre, 'o', color=WEIGHT, markersize=6)
     axes.annotate('W, at l', centre, xytext=(7, 2), textcoords='offset points', color='black')
     axes.plot(0.0, 0.0, 'o', color='black', markersize=3)
 

@@ -8,6 +8,7 @@ from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
+from ..estimation.regimes import red_green_blue
 from ..files.output_file import output_file
 from .options import UsageError
 
@@ -22,6 +23,12 @@ SIZE = (6.4, 4.0)
 # Okabe and Ito's palette, distinct with any colour vision and in grey print.
 BLUE, ORANGE, GREEN, VERMILION = '#0072B2', '#E69F00', '#009E73', '#D55E00'
 SKY, GREY = '#56B4E9', '#999999'
+
+TENSION_L, TENSION_S = GREEN, ORANGE
+"""Colours of the cables' tensions, in the layouts for other programs too"""
+
+HOLDS = '#cfe3f1'
+"""Colour of the angles and margins that friction can hold"""
 
 _STYLE = {
     'axes.axisbelow': True,
@@ -38,6 +45,12 @@ _STYLE = {
 }
 
 Result = TypeVar('Result')
+
+
+def pale(colour: str) -> str:
+    """Return a colour such as ``#56B4E9`` as an area has it, below lines and letters."""
+    parts = (0.4 * part + 0.6 for part in red_green_blue(colour))
+    return '#' + ''.join(f'{round(255 * part):02x}' for part in parts)
 
 
 @contextmanager

@@ -75,4 +75,4 @@ def _chosen(options: argparse.Namespace) -> Iterator[tuple[str, Any]]:
 
 
 def _shown(value: Any) -> str:
-    return 'not given' if value is None else str(value)
+    return 'not given' if value is None or value == '' else str(value)

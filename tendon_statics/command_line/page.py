@@ -41,6 +41,7 @@ footer { color: #666; font-size: 0.85rem; margin-top: 2.5rem; }
 $style
 @media screen and (max-width: 40rem) {
   .wide svg { min-width: 36rem; }
+  .wide td:last-child { min-width: 11rem; }
   .facts th { white-space: normal; overflow-wrap: anywhere; min-width: 6rem; }
 }
 @media print {

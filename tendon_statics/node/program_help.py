@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -49,21 +49,28 @@ def _help(name: str) -> str:
         '',
         WHAT[name],
         '',
-        f'  {name} --ros-args --params-file unit.yaml      parameters from a file',
-        f'  {name} --ros-args -p NAME:=VALUE               one parameter',
-        f'  {name} --ros-args -r tensions:=driver/tensions another name of a topic',
-        f'  {name} --ros-args -r __ns:=/left               a namespace',
+        *(f'  {name} --ros-args {given:28} {what}' for given, what in _examples(name)),
         '',
         'parameters, with their defaults and what is allowed:',
         *_lines(tables[name]),
     ]
-    if name == 'view':  # It finds the topics by itself, in every namespace.
-        lines = [line for line in lines if ' -r ' not in line]
     if name == 'estimator':
         lines.append("  design....: the unit's design; `tendon-statics design` lists it")
     elif name == 'arm_estimator':
         lines += _lines(cable_table(('NAME',)))
     return '\n'.join(lines)
+
+
+def _examples(name: str) -> Iterator[tuple[str, str]]:
+    """Arguments of ROS, and what they give."""
+    if name == 'arm_estimator':
+        yield '-p arm_file:=arm.yaml', "the arm's own file"
+    if name != 'view':
+        yield '--params-file unit.yaml', 'parameters from a file'
+    yield '-p NAME:=VALUE', 'one parameter'
+    if name != 'view':  # It finds the topics by itself, in every namespace.
+        yield '-r tensions:=driver/tensions', 'another name of a topic'
+        yield '-r __ns:=/left', 'a namespace'
 
 
 def _lines(parameters: Iterable[Parameter]) -> list[str]:

@@ -1,4 +1,4 @@
-"""Asking an estimator for the design of its unit."""
+"""Asking an estimator what it is of: the design of its unit, or its arm."""
 
 from __future__ import annotations
 
@@ -9,24 +9,26 @@ from rcl_interfaces.srv import GetParameters
 from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
 
-from ..files.estimator_parameters import DESIGN
-from ..physics import DesignError, JointDesign, design_fields
+from .kinds import Kind
 
 PERIOD = 3.0
 """Seconds between two questions, since a design may be changed at any time"""
 
-NAMES = [field.name for field in design_fields()]
+PATIENCE = 30.0
+"""Seconds after which an answer is no longer waited for; a busy estimator is slow to answer"""
 
 
 class DesignQuestion:
     """Asks for an estimator's design again and again; reads it, and changes nothing."""
 
-    def __init__(self, node: Node, estimator: str) -> None:
-        self.design: JointDesign | None = None
-        """The newest answer; None before the first, and where there is none"""
+    def __init__(self, node: Node, estimator: str, kind: Kind) -> None:
+        self.design: Any = None
+        """The newest answer, a `JointDesign` or an `Arm`; None before the first, and where there
+        is none"""
         self._node = node
+        self._kind = kind
         self._client = node.create_client(GetParameters, f'{estimator}/get_parameters')
-        self._next = -math.inf
+        self._asked_at = -math.inf
         self._asked: Any = None
 
     def ask_when_due(self, now: float) -> None:
@@ -34,10 +36,12 @@ class DesignQuestion:
         if self._asked is not None and self._asked.done():
             self._take(self._asked)
             self._asked = None
-        if now >= self._next and self._client.service_is_ready():
-            self._next = now + PERIOD
+        if not self._client.service_is_ready():
             self._forget()
-            names = [DESIGN + name for name in NAMES]
+        elif now >= self._asked_at + (PERIOD if self._asked is None else PATIENCE):
+            self._asked_at = now
+            self._forget()
+            names = list(self._kind.asked)
             self._asked = self._client.call_async(GetParameters.Request(names=names))
 
     def close(self) -> None:
@@ -52,10 +56,7 @@ class DesignQuestion:
 
     def _take(self, asked: Any) -> None:
         values = map(parameter_value_to_python, asked.result().values)
-        given = {
-            name: value for name, value in zip(NAMES, values, strict=False) if value is not None
-        }
-        try:
-            self.design = JointDesign.from_mapping(given)
-        except DesignError:  # as of an estimator that is not configured yet
-            self.design = None
+        answers = zip(self._kind.asked, values, strict=False)
+        self.design = self._kind.model_of(
+            {name: value for name, value in answers if value is not None}
+        )

@@ -1,4 +1,4 @@
-"""What is shown of a message ``Estimate``, in words and in drawings alike."""
+"""What is shown of messages ``Estimate`` and ``ArmEstimate``, in words and in drawings alike."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from typing import Any
 
 from ..estimation.regimes import REGIME_COLOURS
 from ..physics import Load, LoadError, Regime
-from .history import Sample
 
 COVERAGE = 2.0
 """Standard deviations on either side, where an estimate has no interval of its own"""
@@ -34,28 +33,14 @@ def is_present(said: str, age: float) -> bool:
 
 
 def colour_of(estimate: Any, *, present: bool) -> str:
-    """Return the colour that stands for an estimate, that of its regime while it is of now."""
-    regime = regime_of(estimate)
+    """Return the colour that stands for a unit, that of its regime while it is of now."""
+    return colour_of_regime(estimate.regime, present=present)
+
+
+def colour_of_regime(name: str, *, present: bool) -> str:
+    """Return the colour that stands for a regime, grey if it is not of now, or is none."""
+    regime = regime_named(name)
     return REGIME_COLOURS[regime] if regime and present else GREY
-
-
-def sample_of(estimate: Any) -> Sample:
-    """Return what is drawn of an estimate; angles in degrees."""
-    low, high = map(math.degrees, angle_interval(estimate) or (math.nan, math.nan))
-    ends = [math.degrees(end) for end in estimate.admissible_angles]
-    spread = COVERAGE * estimate.pressure_stddev
-    return Sample(
-        angle=math.degrees(estimate.bend_angle),
-        angle_low=low,
-        angle_high=high,
-        admissible=list(pairs_of(ends)),
-        pressure=estimate.pressure,
-        pressure_low=estimate.pressure - spread,
-        pressure_high=estimate.pressure + spread,
-        slip_margin=estimate.slip_margin,
-        tension_l=estimate.tension_l,
-        tension_s=estimate.tension_s,
-    )
 
 
 def pairs_of(ends: Sequence[float]) -> Iterator[tuple[float, float]]:
@@ -64,15 +49,25 @@ def pairs_of(ends: Sequence[float]) -> Iterator[tuple[float, float]]:
 
 
 def angle_interval(estimate: Any) -> tuple[float, float] | None:
-    """Return the ends in rad of where the angle is, within a half turn; None if it is not known.
+    """Return the ends in rad of where a unit's angle is, as `interval_about` has them."""
+    return interval_about(
+        estimate.bend_angle,
+        estimate.bend_angle_stddev,
+        (estimate.bend_angle_low, estimate.bend_angle_high),
+    )
+
+
+def interval_about(
+    angle: float, stddev: float, ends: tuple[float, float]
+) -> tuple[float, float] | None:
+    """Return the ends in rad of where an angle is, within a half turn; None if it is not known.
 
     That is the interval that the estimator gives, else `COVERAGE` standard deviations. Without an
     angle there is none: an interval is about the angle that is told.
     """
-    angle, spread = estimate.bend_angle, COVERAGE * estimate.bend_angle_stddev
-    low, high = estimate.bend_angle_low, estimate.bend_angle_high
+    low, high = ends
     if math.isnan(low):
-        low, high = angle - spread, angle + spread
+        low, high = angle - COVERAGE * stddev, angle + COVERAGE * stddev
     if not all(map(math.isfinite, (angle, low, high))):
         return None
     return max(low, -math.pi), min(high, math.pi)
@@ -87,15 +82,16 @@ def load_of(estimate: Any) -> Load | None:
     )
     tip_force = (estimate.tip_force_x, estimate.tip_force_z)
     try:
-        return Load(direction, tip_force, estimate.tip_distance)
+        # The force on an arm acts at its end, and its message names no distance.
+        return Load(direction, tip_force, getattr(estimate, 'tip_distance', 0.0))
     except LoadError:
         return None
 
 
-def regime_of(estimate: Any) -> Regime | None:
-    """Return the regime of an estimate, None if it is of a kind that is not known here."""
+def regime_named(name: str) -> Regime | None:
+    """Return the regime of a name, None if it is of a kind that is not known here."""
     try:
-        return Regime(estimate.regime)
+        return Regime(name)
     except ValueError:
         return None
 

@@ -1,12 +1,11 @@
-"""The last minute of a unit, as columns that a page draws."""
+"""The last minute of a unit or an arm, as columns that a page draws."""
 
 from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import islice
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,35 +16,8 @@ SPAN = 60.0
 LONGEST_BAND = 1.0
 """Seconds; a sample stands for the time since the one before it, but for no longer than that"""
 
-
-class Sample(NamedTuple):
-    """What is drawn of one estimate; NaN where it is not determined. Angles in degrees."""
-
-    angle: float = math.nan
-    angle_low: float = math.nan
-    angle_high: float = math.nan
-    admissible: Sequence[tuple[float, float]] = ()
-    """Intervals in which friction can hold the unit"""
-    pressure: float = math.nan
-    """In Pa"""
-    pressure_low: float = math.nan
-    pressure_high: float = math.nan
-    slip_margin: float = math.nan
-    tension_l: float = math.nan
-    """In N"""
-    tension_s: float = math.nan
-
-
-BANDS = 2
-"""How many intervals of admissible angles are drawn over time; the newest has them all"""
-
-COLUMNS = (
-    'before',
-    'time',
-    *(name for name in Sample._fields if name != 'admissible'),
-    *(f'admissible_{end}_{band}' for band in range(BANDS) for end in ('low', 'high')),
-)
-"""Names of the columns; times are in ms, as a browser has them"""
+TIMES = ('before', 'time')
+"""Names of the columns that every history has; in ms, as a browser has them"""
 
 
 class History:
@@ -55,26 +27,24 @@ class History:
     ----------
     rate : float
         Samples per second, at the most.
+    names : sequence of str
+        What a sample has; `columns` are these, after `TIMES`.
     """
 
-    def __init__(self, rate: float) -> None:
+    def __init__(self, rate: float, names: Sequence[str]) -> None:
+        self.columns = (*TIMES, *names)
         self.length = math.ceil(SPAN * rate)
         self.count = 0
         """How many samples came so far, also those that are forgotten"""
+        self._names = tuple(names)
         self._rows: deque[tuple[float, ...]] = deque(maxlen=self.length)
         self._newest = -math.inf
 
-    def add(self, time: float, sample: Sample) -> None:
-        """Add a sample that came at a time in s."""
+    def add(self, time: float, sample: Mapping[str, float]) -> None:
+        """Add a sample that came at a time in s; what it does not have is not determined."""
         before = max(self._newest, time - LONGEST_BAND)
-        ends = [end for interval in sample.admissible[:BANDS] for end in interval]
-        ends += [math.nan] * (2 * BANDS - len(ends))
-        numbers = (
-            value
-            for name, value in zip(sample._fields, sample, strict=True)
-            if name != 'admissible'
-        )
-        self._rows.append((1e3 * before, 1e3 * time, *numbers, *ends))  # type: ignore[arg-type]
+        values = (sample.get(name, math.nan) for name in self._names)
+        self._rows.append((1e3 * before, 1e3 * time, *values))
         self._newest = time
         self.count += 1
 
@@ -82,8 +52,8 @@ class History:
         """Return the samples after the first `count`, as far as they are kept, as columns."""
         new = min(self.count - count, len(self._rows))
         rows = list(islice(self._rows, len(self._rows) - new, None))
-        columns = np.array(rows, dtype=np.float64).reshape(new, len(COLUMNS)).T
+        columns = np.array(rows, dtype=np.float64).reshape(new, len(self.columns)).T
         return {
             name: np.ascontiguousarray(column)
-            for name, column in zip(COLUMNS, columns, strict=True)
+            for name, column in zip(self.columns, columns, strict=True)
         }

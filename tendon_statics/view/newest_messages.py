@@ -2,14 +2,30 @@
 
 from __future__ import annotations
 
+import math
+import time
 from typing import Any
 
 from rclpy.callback_groups import CallbackGroup
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
 
 from ..node.inputs.waiting_messages import waiting_messages
+
+FITS_ALL = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+"""Goes with every publisher, and never holds one up"""
+
+LATCHED = QoSProfile(
+    depth=1,
+    reliability=ReliabilityPolicy.RELIABLE,  # else the middleware sends nothing from before
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+"""Goes with publishers that keep what they said, and with no others"""
+
+LOOK_PERIOD = 1.0
+"""Seconds between two looks at whether publishers keep what they said"""
 
 
 class _LeftAlone(CallbackGroup):
@@ -40,15 +56,8 @@ class NewestMessages:
     def __init__(self, node: Node, message_type: type, topic: str, depth: int = 1) -> None:
         self._node = node
         self._depth = depth
-        self._subscription = node.create_subscription(
-            message_type,
-            topic,
-            lambda _message: None,
-            # Best effort goes with every publisher, and never holds one up.
-            QoSProfile(depth=depth, reliability=ReliabilityPolicy.BEST_EFFORT),
-            callback_group=_LeftAlone(),
-            event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
-        )
+        qos = QoSProfile(depth=depth, reliability=FITS_ALL.reliability)
+        self._subscription = listen(node, message_type, topic, qos)
 
     def take(self) -> list[Any]:
         """Return what has come since the last call and was kept, the oldest first."""
@@ -57,3 +66,52 @@ class NewestMessages:
     def close(self) -> None:
         """Hear no more."""
         self._node.destroy_subscription(self._subscription)
+
+
+class KeptMessages:
+    """The newest message of a topic that says what holds, also one that was said before.
+
+    A publisher that keeps nothing for those who come later is heard as well.
+    """
+
+    def __init__(self, node: Node, message_type: type, topic: str) -> None:
+        self._node = node
+        self._message_type = message_type
+        self._topic = topic
+        self._qos = FITS_ALL
+        self._subscription = listen(node, message_type, topic, self._qos)
+        self._look_at = -math.inf
+
+    def take(self) -> list[Any]:
+        """Return the message that has come since the last call, if there is one."""
+        now = time.monotonic()
+        if now >= self._look_at:
+            self._look_at = now + LOOK_PERIOD
+            self._fit()
+        return [message for message, _ in waiting_messages(self._subscription, 1)]
+
+    def _fit(self) -> None:
+        """Ask for what is kept once all who publish keep it; a publisher may come later."""
+        found = self._node.get_publishers_info_by_topic(self._topic)
+        keeps = [info.qos_profile.durability is LATCHED.durability for info in found]
+        qos = LATCHED if keeps and all(keeps) else FITS_ALL
+        if qos is not self._qos:
+            self._qos = qos
+            self.close()
+            self._subscription = listen(self._node, self._message_type, self._topic, qos)
+
+    def close(self) -> None:
+        """Hear no more."""
+        self._node.destroy_subscription(self._subscription)
+
+
+def listen(node: Node, message_type: type, topic: str, qos: QoSProfile) -> Subscription:
+    """Create a subscription whose messages no executor takes."""
+    return node.create_subscription(
+        message_type,
+        topic,
+        lambda _message: None,
+        qos,
+        callback_group=_LeftAlone(),
+        event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False),
+    )

@@ -8,25 +8,27 @@ from pathlib import Path
 from typing import Any
 
 from bokeh.document import Document
-from bokeh.events import ConnectionLost
-from bokeh.models import ColumnDataSource, CustomJS, Div, Select, Toggle
+from bokeh.events import ConnectionLost, DocumentReady
+from bokeh.models import CustomJS, Div, Select, Toggle
 
 from ..estimation.regimes import REGIME_COLOURS
-from ..physics import JointDesign
-from .estimate_values import is_present, regime_probabilities
+from .arm_panels import ArmPanels
 from .estimators_in_sight import Sighting, estimators_in_sight
-from .history import COLUMNS
-from .map_figure import NOT_SEATED, ON_MAP, MapFigure
-from .probability_figure import ProbabilityFigure
-from .time_figures import TimeFigures, local_clock
-from .unit_figure import UnitFigure
-from .unit_watch import UnitWatch, Watches
-from .words import REGIMES, STYLE, diagnostics_words, nobody, state_words, waiting
+from .kinds import ARM, UNIT
+from .map_figure import NOT_SEATED, ON_MAP
+from .over_time import local_clock
+from .panels import Panels
+from .unit_panels import UnitPanels
+from .watch import Watch, Watches
+from .words import REGIMES, STYLE, diagnostics_words, nobody, waiting
 
 TEMPLATE = Path(__file__).with_name('page.html')
 
 WORDS_PERIOD = 0.2
 """Seconds between two readings in words; quicker ones cannot be read"""
+
+SHOW_KIND = "document.body.classList.toggle('arm', choice.tags.includes('arm'))"
+"""What the browser does when an estimator of another kind is chosen; see page.html"""
 
 SIGHT_PERIOD = 1.0
 """Seconds between two looks for estimators"""
@@ -53,16 +55,10 @@ class Page:
         self._watches = watches
         self._chosen = first
         self._sightings: Sequence[Sighting] = ()
-        self._watch: UnitWatch | None = None
-        self._design: JointDesign | None = None
-        self._drawn = 0  # samples of the history
+        self._watch: Watch | None = None
         self._words_due = self._sight_due = 0.0
 
-        self._history = ColumnDataSource({name: [] for name in COLUMNS}, name='history')
-        self._unit = UnitFigure()
-        self._map = MapFigure(self._history)
-        self._times = TimeFigures(self._history)
-        self._probabilities = ProbabilityFigure()
+        self._panels: dict[str, Panels] = {UNIT.name: UnitPanels(), ARM.name: ArmPanels()}
         style = {'sizing_mode': 'stretch_width', 'stylesheets': [STYLE]}
         self._state = Div(name='state', **style)
         self._diagnostics = Div(name='diagnostics', **style)
@@ -71,12 +67,16 @@ class Page:
         self._pause = Toggle(name='pause', label='Pause', width=110)
         self._pause.on_change('active', self._on_pause)
 
-        for root in (
-            *(self._choice, self._pause, self._state, self._diagnostics),
-            *(self._unit.root, self._map.root, self._probabilities.root),
-            *(self._times.angle, self._times.pressure, self._times.margin),
-        ):
+        # What the page shows hangs on the kind of estimator, which it may have from the start.
+        show_kind = CustomJS(args={'choice': self._choice}, code=SHOW_KIND)
+        self._choice.js_on_change('tags', show_kind)
+        document.js_on_event(DocumentReady, show_kind)
+
+        for root in (self._choice, self._pause, self._state, self._diagnostics):
             document.add_root(root)
+        for panels in self._panels.values():
+            for root in panels.roots:
+                document.add_root(root)
         document.title = 'tendon_statics'
         document.template = TEMPLATE.read_text(encoding='utf-8')
         document.template_variables['regimes'] = [
@@ -128,6 +128,7 @@ class Page:
                     self._chosen = wanted
                     self._watch = self._watches.look(sighting)
                     self._choice.value = wanted
+                    self._choice.tags = [sighting.kind.name]
 
     def _draw(self, now: float) -> None:
         watch = self._watch
@@ -138,39 +139,15 @@ class Page:
             if are_words_due:
                 self._say(nobody(self._node.domain, self._chosen), '')
             return
-        if watch.history.count > self._drawn:
-            new = watch.history.since(self._drawn)
-            for name in ('before', 'time'):
-                new[name] = local_clock(new[name])
-            # Lists, since each array of its own would be two messages more.
-            lists = {name: column.tolist() for name, column in new.items()}
-            self._history.stream(lists, rollover=watch.history.length)
-            self._drawn = watch.history.count
-        self._times.move_on(local_clock(1e3 * time.time()))
-        estimate = watch.estimate
-        if estimate is not None:
-            self._draw_estimate(watch, estimate, now - watch.estimated_at)
+        panels, age = self._panels[watch.sighting.kind.name], now - watch.estimated_at
+        panels.draw(watch, age)
+        panels.move_on(local_clock(1e3 * time.time()))
         if are_words_due:
-            age, is_drawn = now - watch.estimated_at, watch.design is not None
-            state = (
-                waiting(watch.sighting.name)
-                if estimate is None
-                else state_words(estimate, watch.said, age, is_drawn=is_drawn)
-            )
+            if watch.estimate is None:
+                state = waiting(watch.sighting.name, watch.said)
+            else:
+                state = panels.say(watch, age)
             self._say(state, diagnostics_words(watch.diagnostics, now - watch.diagnosed_at))
-
-    def _draw_estimate(self, watch: UnitWatch, estimate: Any, age: float) -> None:
-        design = watch.design
-        if design != self._design:
-            self._design = design
-            self._unit.clear()
-            if design is not None:
-                self._unit.draw_design(design)
-                self._times.draw_design(design)
-        if design is not None:
-            self._unit.draw(design, estimate, present=is_present(watch.said, age))
-        self._map.draw(design, estimate)
-        self._probabilities.draw(regime_probabilities(estimate))
 
     def _say(self, state: str, diagnostics: str) -> None:
         for place, text in ((self._state, state), (self._diagnostics, diagnostics)):
@@ -182,9 +159,5 @@ class Page:
         if self._watch is None:
             return
         self._watches.leave(self._watch)
-        self._watch = self._design = None
-        self._drawn = 0
-        self._history.data = {name: [] for name in COLUMNS}
-        self._unit.clear()
-        self._map.clear()
-        self._probabilities.draw(None)
+        self._panels[self._watch.sighting.kind.name].clear()
+        self._watch = None

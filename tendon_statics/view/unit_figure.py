@@ -11,7 +11,7 @@ from bokeh.plotting import figure
 from ..physics import JointDesign, Load
 from .estimate_values import angle_interval, colour_of, load_of, pairs_of
 
-INK, PALE, GRAVITY = '#222222', '#e4e4e4', '#555555'
+INK, PALE, GRAVITY, FORCE = '#222222', '#e4e4e4', '#555555', '#c61a1a'
 
 # Lengths are in radii of the ball, so that units of every size fit the frame.
 WIDTH, BOTTOM, TOP = 3.3, -1.7, 3.3
@@ -210,7 +210,7 @@ def _load_arrows(design: JointDesign, angle: float, load: Load) -> list[Any]:
         away = min(load.tip_distance / design.ball_radius, 1.3 * _top(design))
         x, y = away * math.sin(angle), away * math.cos(angle)
         along_x, along_y = (0.8 * part / force for part in load.tip_force)
-        arrows.append((x - along_x, y - along_y, x, y, '#c61a1a'))
+        arrows.append((x - along_x, y - along_y, x, y, FORCE))
     return arrows
 
 

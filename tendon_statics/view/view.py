@@ -47,7 +47,7 @@ class View(Node):
         try:
             from .page import Page
             from .server import PageServer, allowed_hosts
-            from .unit_watch import Watches
+            from .watch import Watches
         except ModuleNotFoundError as error:
             raise StartError(
                 f'the page needs Bokeh, and {error}: pip install bokeh, or in the folder of '

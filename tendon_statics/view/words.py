@@ -17,7 +17,7 @@ from .estimate_values import (
     colour_of,
     is_present,
     pairs_of,
-    regime_of,
+    regime_named,
 )
 
 REGIMES = {
@@ -44,6 +44,8 @@ STYLE = """
   td small { color: #666; padding-left: 0.5rem; }
   ul { margin: 0.5rem 0 0; padding-left: 1.2rem; font-size: 0.9rem; }
   b { padding: 0.1rem 0.5rem; border-radius: 4px; color: #fff; background: #777777; }
+  .joints { font-size: 0.85rem; }
+  .joints th { padding: 0.1rem 0.5rem 0.1rem 0; } .joints td { padding-right: 0.5rem; }
   .level-ok { background: #00734f; } .level-warn { background: #9a6a00; }
   .level-error { background: #b34700; }
 """
@@ -78,8 +80,19 @@ def nobody(domain: str, asked: str) -> str:
     )
 
 
-def waiting(name: str) -> str:
-    """Say that an estimator is there, and said nothing yet."""
+def waiting(name: str, said: str) -> str:
+    """Say that an estimator is there, and that no estimate came yet.
+
+    Parameters
+    ----------
+    said
+        ``invalid`` or ``stale``, if the estimator says so.
+    """
+    if said:
+        return (
+            f'<h2 style="color:{GREY}">{escape(said)}</h2><p>{escape(WITHOUT_ESTIMATE[said])} '
+            'Since this page was opened no estimate came.</p>'
+        )
     return (
         f'<h2 style="color:{GREY}">waiting</h2><p>{escape(name)} is there, and no estimate of '
         'it came yet: do tensions come, and is the node active?</p>'
@@ -98,50 +111,57 @@ def state_words(estimate: Any, said: str, age: float, *, is_drawn: bool = True) 
     is_drawn
         Whether the unit's design is known, so that it is drawn.
     """
-    regime = regime_of(estimate)
+    regime = regime_named(estimate.regime)
     name, meaning = REGIMES[regime] if regime else (estimate.regime, '')
     present = is_present(said, age)
-    colour = colour_of(estimate, present=present)
     if not present:
         name, meaning = said or name, f'{WITHOUT_ESTIMATE[said]} {LAST_KNOWN}'
     elif regime is Regime.HELD and not math.isfinite(estimate.bend_angle):
         meaning += f' {NOT_DETERMINED}' if estimate.admissible_angles else ''
-    numbers = ''.join(
-        f'<tr><th>{label}</th><td>{value}</td></tr>' for label, value in _numbers(estimate)
-    )
-    old = f' <small>{age:.0f} s ago</small>' if age > OLD else ''
     doubts = [*_doubts(estimate), *([] if is_drawn else [NO_DESIGN])]
-    return (
-        f'<h2 style="color:{colour}">{escape(name)}{old}</h2><p>{escape(meaning)}</p>'
-        f'<table>{numbers}</table>{_list(doubts)}'
-    )
+    colour = colour_of(estimate, present=present)
+    return headline(name, colour, age, meaning) + table(_numbers(estimate)) + bullets(doubts)
+
+
+def headline(name: str, colour: str, age: float, meaning: str) -> str:
+    """Say what is, large, and what it means; and how old it is, if it is old."""
+    old = f' <small>{age:.0f} s ago</small>' if age > OLD else ''
+    return f'<h2 style="color:{colour}">{escape(name)}{old}</h2><p>{escape(meaning)}</p>'
+
+
+def table(rows: Iterable[tuple[str, str]]) -> str:
+    """Say values by name, in HTML that is escaped already."""
+    lines = (f'<tr><th>{label}</th><td>{value}</td></tr>' for label, value in rows)
+    return f'<table>{"".join(lines)}</table>'
 
 
 def _numbers(estimate: Any) -> Iterator[tuple[str, str]]:
-    angle = _number(math.degrees(estimate.bend_angle), '.2f', '°')
+    angle = number(math.degrees(estimate.bend_angle), '.2f', '°')
     interval = angle_interval(estimate)
     if interval:
-        angle += f' <small>{_degrees(interval)}</small>'
-    pressure = _number(estimate.pressure, '.1f', ' Pa')
+        angle += f' <small>{degrees_between(interval)}</small>'
+    pressure = number(estimate.pressure, '.1f', ' Pa')
     if math.isfinite(estimate.pressure) and math.isfinite(estimate.pressure_stddev):
         pressure += f' <small>± {COVERAGE * estimate.pressure_stddev:.1f}</small>'
     yield 'bend angle', angle
-    if regime_of(estimate) is not Regime.SLACK:
+    if regime_named(estimate.regime) is not Regime.SLACK:
         bands = pairs_of(list(estimate.admissible_angles))
-        yield 'can hold at', ', '.join(map(_degrees, bands)) or 'nowhere'
+        yield 'can hold at', ', '.join(map(degrees_between, bands)) or 'nowhere'
     yield 'pressure', pressure
-    yield 'slip margin', _number(estimate.slip_margin, '+.3f', '')
+    yield 'slip margin', number(estimate.slip_margin, '+.3f', '')
     if math.isfinite(estimate.consistency):
         yield 'consistency', f'{estimate.consistency:.3f}'
     yield 'tensions l, s', f'{estimate.tension_l:.3f} N, {estimate.tension_s:.3f} N'
 
 
-def _degrees(interval: tuple[float, float]) -> str:
+def degrees_between(interval: tuple[float, float]) -> str:
+    """Say an interval of an angle, of which the ends are in rad."""
     low, high = map(math.degrees, interval)
     return f'{low:.1f} to {high:.1f}°'
 
 
-def _number(value: float, form: str, unit: str) -> str:
+def number(value: float, form: str, unit: str) -> str:
+    """Say a number, or that there is none."""
     return f'{value:{form}}{unit}' if math.isfinite(value) else 'not determined'
 
 
@@ -174,10 +194,11 @@ def diagnostics_words(status: Any, age: float) -> str:
     )
     return (
         f'<p><b class="level-{word.lower()}">{word}</b>{old} {escape(status.message)}</p>'
-        f'{_list(values)}'
+        f'{bullets(values)}'
     )
 
 
-def _list(texts: Iterable[str]) -> str:
+def bullets(texts: Iterable[str]) -> str:
+    """Say one thing a line."""
     items = ''.join(f'<li>{escape(text)}</li>' for text in texts)
     return f'<ul>{items}</ul>' if items else ''

@@ -8,8 +8,9 @@ from xml.etree import ElementTree
 import pytest
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 from list_entities import arm_estimator, entities, estimator
-from tendon_statics_interfaces.msg import Estimate
+from tendon_statics_interfaces.msg import ArmEstimate, Estimate, JointRegimes
 
+from tendon_statics import load_arm
 from tendon_statics.files.installed_files import installed_config
 from tendon_statics.launching.rig_file import load_rig
 from tendon_statics.launching.rviz import RvizError, Shown, rviz_arguments, rviz_config
@@ -18,15 +19,26 @@ SHARE = installed_config('rig.yaml').parents[1]
 ALONE = Shown('', 'joint')
 
 
+def published(node):
+    """Topic → type."""
+    return {
+        name.replace('~', node.get_fully_qualified_name()): kind.replace('/msg/', '/')
+        for name, kind in entities(node)['publisher'].items()
+    }
+
+
 @pytest.fixture(scope='module')
 def topics():
-    """Topic of an estimator without a namespace → type."""
+    """Those of an estimator without a namespace."""
     with estimator('markers:=true') as node:
-        found = entities(node)['publisher']
-        return {
-            name.replace('~', node.get_fully_qualified_name()): kind.replace('/msg/', '/')
-            for name, kind in found.items()
-        }
+        return published(node)
+
+
+@pytest.fixture(scope='module')
+def arm_topics():
+    """Those of an arm's."""
+    with arm_estimator('markers:=true') as node:
+        return published(node)
 
 
 def displays(config, kind):
@@ -104,39 +116,61 @@ def get_own_prefix(_name):
     return get_package_prefix('tendon_statics')
 
 
-FIELDS = Estimate.get_fields_and_field_types()
+FIELDS = {
+    f'tendon_statics_interfaces/{message.__name__}': message.get_fields_and_field_types()
+    for message in (Estimate, ArmEstimate, JointRegimes)
+}
+FIELDS['std_msgs/String'] = {'data': 'string'}
 
 
 def assert_is_published(path, topics):
     """Assert that a topic of the estimator has the field at the end of a path, if it has one."""
-    match = re.fullmatch(r'(/[\w/]+?)(?:[/.](\w+)(?:\[\d+\])?)?', path)
-    topic, field = match.groups()
+    match = re.fullmatch(r'(/[\w/]+?)(?:[/.](\w+)(\[\d+\])?)?', path)
+    topic, field, index = match.groups()
     if path in topics:
         return
     assert topic in topics, path
-    if topics[topic].endswith('/Estimate'):
-        assert field in FIELDS, path
-    else:
-        assert (topics[topic], field) == ('std_msgs/String', 'data'), path
+    kind = FIELDS[topics[topic]][field]
+    assert bool(index) == kind.startswith('sequence<'), path
 
 
-def test_plotjuggler_plots_fields_that_are_published(topics):
-    root = ElementTree.parse(SHARE / 'layouts' / 'plotjuggler.xml').getroot()
+PLOTJUGGLER_SETTINGS = {
+    *('use_header_stamp', 'discard_large_arrays', 'max_array_size'),
+    *('boolean_strings_to_number', 'remove_suffix_from_strings', 'selected_topics'),
+}
+"""Those of its subscriber to topics, `RosParserConfig` in plotjuggler-ros-plugins 2.1"""
+
+OF = {'': ('estimator', 'topics'), '_arm': ('arm_estimator', 'arm_topics')}
+"""End of a layout's name → the estimator, and the fixture with what that publishes"""
+
+
+@pytest.mark.parametrize('end', OF)
+def test_plotjuggler_plots_fields_that_are_published(end, request):
+    topics = request.getfixturevalue(OF[end][1])
+    root = ElementTree.parse(SHARE / 'layouts' / f'plotjuggler{end}.xml').getroot()
     curves = [curve.attrib['name'] for curve in root.iter('curve')]
     assert len(curves) > 5
     for curve in curves:
         topic, _, field = curve.rpartition('/')
         assert_is_published(f'{topic}.{field}', topics)
-    for topic in root.iter('topic'):
-        assert topic.attrib['name'] in topics
+    (plugin,) = root.iter('plugin')
+    assert plugin.attrib['ID'] == root.find('previouslyLoaded_Streamer').attrib['name']
+    # As its loader reads them: one attribute each, and all topics in one.
+    given = {setting.tag: setting.attrib for setting in plugin}
+    assert all(set(values) == {'value'} for values in given.values())
+    assert set(given) == PLOTJUGGLER_SETTINGS
+    assert set(given['selected_topics']['value'].split(';')) <= set(topics)
     for splitter in root.iter('DockSplitter'):
         shares = [float(share) for share in splitter.attrib['sizes'].split(';')]
         assert len(shares) == len(splitter) == int(splitter.attrib['count'])
         assert sum(shares) == pytest.approx(1.0)
 
 
-def test_foxglove_plots_fields_that_are_published(topics):
-    layout = json.loads((SHARE / 'layouts' / 'foxglove.json').read_text(encoding='utf-8'))
+@pytest.mark.parametrize('end', OF)
+def test_foxglove_plots_fields_that_are_published(end, request):
+    name, of = OF[end]
+    topics = request.getfixturevalue(of)
+    layout = json.loads((SHARE / 'layouts' / f'foxglove{end}.json').read_text(encoding='utf-8'))
     panels = layout['configById']
     paths = [path['value'] for panel in panels.values() for path in panel.get('paths', ())]
     paths += [
@@ -148,9 +182,20 @@ def test_foxglove_plots_fields_that_are_published(topics):
     assert len(paths) > 8
     for path in paths:
         assert_is_published(path, topics)
-    assert '/estimator/markers' in panels['3D!unit']['topics']
+    (scene,) = (panel for panel in panels.values() if 'followTf' in panel)
+    assert f'/{name}/markers' in scene['topics']
+    assert all('title' not in panel for panel in panels.values())  # it reads foxglovePanelTitle
 
     def shown(part):
         return [part] if isinstance(part, str) else shown(part['first']) + shown(part['second'])
 
     assert sorted(shown(layout['layout'])) == sorted(panels)
+
+
+def test_layouts_of_an_arm_name_all_joints_and_cables_of_the_example():
+    arm = load_arm(installed_config('arm.yaml'))
+    for path in (SHARE / 'layouts').glob('*_arm.*'):
+        text = path.read_text(encoding='utf-8')
+        for field, count in (('bend_angles', len(arm.units)), ('tensions', len(arm.cables))):
+            indices = set(map(int, re.findall(rf'\b{field}\[(\d+)\]', text)))
+            assert indices == set(range(count)), path

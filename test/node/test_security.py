@@ -19,6 +19,7 @@ from tendon_statics.files.installed_files import installed_config
 from tendon_statics.node.arm_estimator import ArmEstimator
 from tendon_statics.node.estimator import Estimator
 from tendon_statics.view.estimators_in_sight import Sighting
+from tendon_statics.view.kinds import ARM, UNIT
 from tendon_statics.view.view import View
 
 ROLES = {path.rpartition('/')[2]: rights for path, rights in permissions(POLICY).items()}
@@ -26,10 +27,12 @@ OTHERS = sorted(set(ROLES) - {'estimator', 'arm_estimator'})
 
 
 def watching_view():
-    """A view at whose page somebody looks; without anybody it hears nothing."""
+    """A view at whose pages somebody looks; without anybody it hears nothing."""
     view = View()
-    estimator = f'{view.get_namespace().rstrip("/")}/estimator'
-    view.watches.look(Sighting(estimator, f'{estimator}/estimate'))
+    namespace = view.get_namespace().rstrip('/')
+    estimator, arm_estimator = f'{namespace}/estimator', f'{namespace}/arm_estimator'
+    view.watches.look(Sighting(estimator, f'{estimator}/estimate', UNIT))
+    view.watches.look(Sighting(arm_estimator, f'{arm_estimator}/arm_estimate', ARM))
     return view
 
 
@@ -160,8 +163,11 @@ ALL_REPLIES = ROLES['estimator']['reply'] | ROLES['arm_estimator']['reply']
 EXTRA = {
     'pulley_driver': {'publish': TENSIONS},
     'view': {
-        'subscribe': {'/diagnostics', '/estimator/estimate', '/estimator/regime'},
-        'request': {'/estimator/get_parameters'},
+        'subscribe': {
+            *('/diagnostics', '/estimator/estimate', '/estimator/regime'),
+            *('/arm_estimator/arm_estimate', '/arm_estimator/regimes'),
+        },
+        'request': {'/estimator/get_parameters', '/arm_estimator/get_parameters'},
     },
     # Every C++ node subscribes to /parameter_events, and these may be in C++.
     'load_sensor': {

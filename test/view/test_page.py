@@ -12,8 +12,10 @@ from browser import BrowserMissingError, chromium
 from forked_programs import ForkedProgram
 from live_page import LivePage, forwarded, view_url
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from ros_domain import free_domain, in_domain
 from ros_programs import spinning, wait_for
+from std_msgs.msg import String
 
 from tendon_statics import default_design_path, load_design, solve
 from tendon_statics.files.installed_files import installed_config
@@ -48,7 +50,8 @@ class Rig:
         for joint in FILES:
             stack.enter_context(self.running(joint, 'estimator', '--params-file', design))
             stack.enter_context(self.driving(joint))
-        self.url = view_url(stack.enter_context(self.running('', 'view', '-p', 'port:=0')))
+        self.view = stack.enter_context(self.running('', 'view', '-p', 'port:=0'))
+        self.url = view_url(self.view)
         self._page = None
 
     def page(self, browser):
@@ -79,7 +82,10 @@ class Rig:
 @pytest.fixture(scope='module')
 def running_rig(tmp_path_factory):
     with free_domain() as domain, in_domain(domain), ExitStack() as stack:
-        yield Rig(tmp_path_factory.mktemp('rig'), stack)
+        rig = Rig(tmp_path_factory.mktemp('rig'), stack)
+        yield rig
+        said = rig.view.output()
+        assert not any(word in said for word in ('WARN', 'ERROR', 'Traceback')), said
 
 
 @pytest.fixture
@@ -277,6 +283,32 @@ def test_invalid_and_stale_input_is_said(rig, browser):
         with rig.driving('third', tensions=PUBLISHED):
             page.wait_for_words('17.14°')
         page.wait_for_words('No valid tensions come any more', 'STALE')
+
+
+def test_a_page_that_is_opened_later_hears_what_holds(rig, browser):
+    with rig.running('fifth', 'estimator'):
+        with rig.driving('fifth', tensions=PUBLISHED), LivePage(browser, rig.url) as page:
+            page.wait('model("estimator").options.includes("/fifth/estimator")')
+            page.choose('/fifth/estimator')
+            page.wait_for_words('17.14°')
+        latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        said = []
+        rig.node.create_subscription(String, '/fifth/estimator/regime', said.append, latched)
+        wait_for('the estimator to miss its tensions', lambda: said and said[-1].data == 'stale')
+        with LivePage(browser, rig.url) as page:
+            page.wait('model("estimator").options.includes("/fifth/estimator")')
+            page.choose('/fifth/estimator')
+            page.wait_for_words('No valid tensions come any more')
+
+
+def test_a_regime_that_nobody_keeps_is_heard_too(rig, browser):
+    volatile = ('-p', 'qos_overrides./sixth/estimator/regime.publisher.durability:=volatile')
+    with rig.running('sixth', 'estimator', *volatile), LivePage(browser, rig.url) as page:
+        page.wait('model("estimator").options.includes("/sixth/estimator")')
+        page.choose('/sixth/estimator')
+        with rig.driving('sixth', tensions=PUBLISHED):
+            page.wait_for_words('17.14°')
+        page.wait_for_words('No valid tensions come any more')
 
 
 def test_the_view_ends_by_a_signal_and_the_page_says_so(rig, browser):

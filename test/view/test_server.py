@@ -131,9 +131,10 @@ def test_missing_interfaces_are_said_in_a_line(tmp_path, monkeypatch):
         assert_refused(program, 'no interfaces here', 'interfaces/')
 
 
-def test_the_demo_shows_a_page_until_it_is_ended_and_leaves_nothing():
+@pytest.mark.parametrize('of', [(), ('--arm',)])
+def test_the_demo_shows_a_page_until_it_is_ended_and_leaves_nothing(of):
     with Program.running_command(
-        [sys.executable, ROOT / 'tools/demo_view.py', '--port', '0']
+        [sys.executable, ROOT / 'tools/demo_view.py', '--port', '0', *of]
     ) as demo:
         wait_for(
             'the page', lambda: 'Live page: ' in demo.output() or demo.process.poll() is not None

@@ -10,13 +10,9 @@ from tendon_statics_interfaces.msg import Estimate
 
 from tendon_statics import Regime, default_design_path, load_design, solve
 from tendon_statics.node.outputs.messages import fill_estimate
-from tendon_statics.view.estimate_values import (
-    angle_interval,
-    load_of,
-    regime_probabilities,
-    sample_of,
-)
-from tendon_statics.view.words import diagnostics_words, nobody, state_words
+from tendon_statics.view.estimate_values import angle_interval, load_of, regime_probabilities
+from tendon_statics.view.unit_sample import unit_sample
+from tendon_statics.view.words import diagnostics_words, nobody, state_words, waiting
 
 DESIGN = load_design(default_design_path())
 PUBLISHED, HELD, SLACK = (1.0, 2.0), (1.0, 1.5), (0.0, 2.0)
@@ -133,10 +129,17 @@ def test_the_load_is_read_as_it_was_taken():
 
 
 def test_a_sample_is_in_the_units_of_the_page():
-    result, sample = solve(DESIGN, *PUBLISHED), sample_of(estimate_of(*PUBLISHED))
-    assert sample.angle == pytest.approx(math.degrees(result.bend_angle))
-    assert sample.angle_low < sample.angle < sample.angle_high
+    result, sample = solve(DESIGN, *PUBLISHED), unit_sample(estimate_of(*PUBLISHED))
+    assert sample['angle'] == pytest.approx(math.degrees(result.bend_angle))
+    assert sample['angle_low'] < sample['angle'] < sample['angle_high']
     (interval,) = result.admissible_angles
-    assert sample.admissible == [pytest.approx(tuple(map(math.degrees, interval)))]
-    assert sample.pressure == pytest.approx(result.pressure)
-    assert (sample.tension_l, sample.tension_s) == PUBLISHED
+    found = sample['admissible_low_0'], sample['admissible_high_0']
+    assert found == pytest.approx(tuple(map(math.degrees, interval)))
+    assert sample['pressure'] == pytest.approx(result.pressure)
+    assert (sample['tension_l'], sample['tension_s']) == PUBLISHED
+
+
+def test_what_was_said_before_the_first_estimate_is_said():
+    assert 'do tensions come' in waiting('/left/estimator', '')
+    assert '>stale<' in waiting('/left/estimator', 'stale')
+    assert 'No valid tensions come any more' in waiting('/left/estimator', 'stale')

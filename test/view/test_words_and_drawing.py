@@ -22,8 +22,9 @@ from tendon_statics.estimation.filtered_estimate import FilteredEstimate
 from tendon_statics.estimation.regimes import INVALID, STALE
 from tendon_statics.estimation.settings import Settings
 from tendon_statics.node.outputs.messages import fill_estimate
-from tendon_statics.view.estimate_values import GREY, OLD, is_present, sample_of
+from tendon_statics.view.estimate_values import GREY, OLD, is_present
 from tendon_statics.view.unit_figure import INK, UPRIGHT, UnitFigure
+from tendon_statics.view.unit_sample import unit_sample
 from tendon_statics.view.words import LAST_KNOWN, NO_DESIGN, NOT_DETERMINED, state_words
 
 DESIGN = load_design(default_design_path())
@@ -145,10 +146,11 @@ def test_words_and_drawing_are_one(figure, state, when):
     assert (LAST_KNOWN in words) == (not present) == ('ago' in words or bool(said))
     assert (f'<h2 style="color:{GREY}"' in words) >= (not present)
 
-    sample = sample_of(estimate)
-    over_time = [(sample.angle_low, sample.angle_high)] if not math.isnan(sample.angle_low) else []
+    sample = unit_sample(estimate)
+    ends = sample['angle_low'], sample['angle_high']
+    over_time = [] if math.isnan(ends[0]) else [ends]
     assert close(arcs['interval'], over_time)
-    assert ('±' in rows['pressure']) == (not math.isnan(sample.pressure_low))
+    assert ('±' in rows['pressure']) == (not math.isnan(sample['pressure_low']))
 
 
 def test_the_colour_of_a_drawing_follows_when_its_estimate_gets_old():

@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tendon_statics import StickSlipFilter, StickSlipTracker
-from tendon_statics.command_line.figures import BLUE, GREEN, GREY, ORANGE, VERMILION, write_figure
+from tendon_statics.command_line.figures import (
+    BLUE,
+    GREY,
+    HOLDS,
+    TENSION_L,
+    TENSION_S,
+    VERMILION,
+    write_figure,
+)
 
 from .sessions import session
 
@@ -39,16 +47,14 @@ def draw(drawing: Figure) -> None:
         believing.append(math.degrees(tracker.update(tension_l, tension_s).bend_angle))
     above, below = drawing.subplots(2, sharex=True, height_ratios=(1, 2))
     for tension, colour, name in (
-        (drawn.tension_l, GREEN, 'T_l'),
-        (drawn.tension_s, ORANGE, 'T_s'),
+        (drawn.tension_l, TENSION_L, 'T_l'),
+        (drawn.tension_s, TENSION_S, 'T_s'),
     ):
         above.plot(drawn.time[DRAWN], tension[DRAWN], color=colour, linewidth=0.6, label=name)
     above.set_ylabel('tension [N]')
     above.legend(loc='upper left', ncols=2, frameon=False)
     time = drawn.time[DRAWN]
-    below.fill_between(
-        time, low[DRAWN], high[DRAWN], color='#cfe3f1', label='filter, 95 % interval'
-    )
+    below.fill_between(time, low[DRAWN], high[DRAWN], color=HOLDS, label='filter, 95 % interval')
     below.plot(time, believing[DRAWN], color=GREY, linewidth=1.2, label='tracker')
     below.plot(time, median[DRAWN], color=BLUE, linewidth=1.4, label='filter, median')
     truth = np.degrees(drawn.bend_angle)

@@ -1,6 +1,8 @@
 // Asks an estimator for the bend angle of one pair of cable tensions, and waits no longer than 5 s.
 //
-//   colcon build --base-paths examples/cpp_client      (in a workspace that has tendon_statics)
+// In the folder of tendon_statics, once that is built there and its install/setup.bash is sourced:
+//
+//   colcon build --base-paths examples/cpp_client && source install/setup.bash
 //   ros2 run tendon_statics_cpp_client ask_estimator 1.0 2.0
 
 #include <chrono>

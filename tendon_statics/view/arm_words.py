@@ -1,0 +1,126 @@
+"""What a page says of an arm in words: HTML, from plain texts that are escaped here."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from html import escape
+from typing import Any
+
+from ..estimation.regimes import INVALID, STALE
+from ..physics import Regime
+from .arm_time_figures import line_colours
+from .arm_values import JointSaid, TipSaid, joints_said, tip_said
+from .estimate_values import colour_of_regime, is_present, regime_named
+from .words import LAST_KNOWN, REGIMES, bullets, degrees_between, headline, number, table
+
+MEANINGS = {
+    Regime.SLACK: 'A joint has no tension on one side: nothing is said of any joint.',
+    Regime.DRIVEN_TO_STOP: 'Pressed on its stop. What is not named, friction holds.',
+    Regime.SLIPPING: 'Has slipped to where friction holds it again.',
+    Regime.HELD: 'Friction holds every joint where it is.',
+}
+"""Regime → what it means for an arm; the first that a joint has is what is said of the whole"""
+
+WITHOUT_ESTIMATE = {
+    INVALID: 'The newest reading has no tensions that the model takes.',
+    STALE: 'No valid tensions come any more.',
+    '': 'Nothing comes from it any more.',
+}
+"""As of a unit"""
+
+NO_ARM = (
+    'It does not tell its arm_file, or that is not to be had on the machine of this page; without '
+    'it the arm is not drawn.'
+)
+
+HEADS = ('', 'joint', 'regime', 'bend angle', 'slip margin', 'pressure [Pa]')
+
+
+def arm_state_words(estimate: Any, said: str, age: float, *, is_drawn: bool = True) -> str:
+    """Say what an estimate of an arm is, and what casts doubt on it.
+
+    Parameters
+    ----------
+    said
+        ``invalid`` or ``stale``, if the estimator said so after it.
+    age
+        Seconds since it came.
+    is_drawn
+        Whether the arm is known, so that it is drawn.
+    """
+    joints = joints_said(estimate)
+    present = is_present(said, age)
+    regime = _worst(joints)
+    name, meaning = (REGIMES[regime][0], MEANINGS[regime]) if regime else ('unknown', '')
+    concerned = [joint.name for joint in joints if regime_named(joint.regime) is regime]
+    if regime in (Regime.SLIPPING, Regime.DRIVEN_TO_STOP):
+        meaning = f'{", ".join(concerned)}: {meaning[0].lower()}{meaning[1:]}'
+    colour = colour_of_regime(regime.value if regime else '', present=present)
+    if not present:
+        name, meaning = said or name, f'{WITHOUT_ESTIMATE[said]} {LAST_KNOWN}'
+    doubts = [*_doubts(estimate, joints), *([] if is_drawn else [NO_ARM])]
+    return headline(name, colour, age, meaning) + table(_numbers(estimate)) + bullets(doubts)
+
+
+def joints_table(estimate: Any, *, present: bool) -> str:
+    """Say where each joint is, from the base on, with the colours of its lines and its regime."""
+    joints = joints_said(estimate)
+    heads = ''.join(f'<th>{head}</th>' for head in HEADS)
+    rows = ''.join(
+        f'<tr>{"".join(f"<td>{cell}</td>" for cell in _cells(joint, line, present=present))}</tr>'
+        for joint, line in zip(joints, line_colours(len(joints)), strict=True)
+    )
+    return f'<table class="joints"><tr>{heads}</tr>{rows}</table>'
+
+
+def _cells(joint: JointSaid, line: str, *, present: bool) -> Iterator[str]:
+    yield f'<span style="color:{line}">&#9473;</span>'
+    yield escape(joint.name)
+    colour = colour_of_regime(joint.regime, present=present)
+    regime = regime_named(joint.regime)
+    name = REGIMES[regime][0] if regime else joint.regime
+    share = f' <small>{100.0 * joint.probability:.0f} %</small>'
+    yield (
+        f'<nobr><span style="color:{colour}">&#9679;</span> {escape(name)}</nobr>'
+        f'{share if math.isfinite(joint.probability) else ""}'
+    )
+    angle = number(math.degrees(joint.angle), '.2f', '°')
+    if joint.interval:
+        angle += f' <small>{degrees_between(joint.interval)}</small>'
+    yield angle
+    yield number(joint.slip_margin, '+.3f', '')
+    yield number(joint.pressure, '.0f', '')
+
+
+def _worst(joints: Sequence[JointSaid]) -> Regime | None:
+    there = {regime_named(joint.regime) for joint in joints}
+    return next((regime for regime in MEANINGS if regime in there), None)
+
+
+def _numbers(estimate: Any) -> Iterator[tuple[str, str]]:
+    tip = tip_said(estimate)
+    yield 'tip x', _millimetres(tip['x'])
+    yield 'tip z', _millimetres(tip['z'])
+    tilt = number(math.degrees(tip['tilt'].value), '.2f', '°')
+    if tip['tilt'].interval:
+        tilt += f' <small>{degrees_between(tip["tilt"].interval)}</small>'
+    yield 'tip tilt', tilt
+    for name, tension in zip(estimate.cable_names, estimate.tensions, strict=False):
+        yield f'tension {escape(name)}', f'{tension:.3f} N'
+
+
+def _millimetres(tip: TipSaid) -> str:
+    said = number(1e3 * tip.value, '.2f', ' mm')
+    if tip.interval:
+        low, high = (1e3 * end for end in tip.interval)
+        said += f' <small>{low:.2f} to {high:.2f} mm</small>'
+    return said
+
+
+def _doubts(estimate: Any, joints: Sequence[JointSaid]) -> Iterator[str]:
+    if not estimate.load_assured:
+        yield 'What tells the load does not come; the last that was known is taken.'
+    moved = [joint.name for joint in joints if math.isfinite(joint.angle) and not joint.is_assured]
+    if moved:
+        yield f'May have moved unseen, so that the angle is not assured: {", ".join(moved)}.'

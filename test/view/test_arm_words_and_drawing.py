@@ -1,0 +1,137 @@
+"""What the page says of an arm and what it draws of it are one, whatever comes."""
+
+import math
+
+import pytest
+from std_msgs.msg import Header
+from tendon_statics_interfaces.msg import ArmEstimate
+
+from tendon_statics import ArmFilter, ArmTracker, Load, Regime, load_arm
+from tendon_statics.estimation.arm_estimate import ArmEstimate as Found
+from tendon_statics.estimation.arm_settings import ArmSettings
+from tendon_statics.estimation.estimate import KnownLoad
+from tendon_statics.estimation.filtered_arm_estimate import FilteredArmEstimate
+from tendon_statics.estimation.regimes import INVALID, REGIME_COLOURS, STALE
+from tendon_statics.files.installed_files import installed_config
+from tendon_statics.node.outputs.arm_messages import fill_arm_estimate
+from tendon_statics.view.arm_figure import ArmFigure
+from tendon_statics.view.arm_values import arm_names, arm_sample, is_of, joints_said
+from tendon_statics.view.arm_words import NO_ARM, arm_state_words, joints_table
+from tendon_statics.view.estimate_values import GREY, OLD
+from tendon_statics.view.words import LAST_KNOWN
+
+ARM = load_arm(installed_config('arm.yaml'))
+NAMES = tuple(f'arm_joint_{number}' for number in range(1, 6))
+EVEN = {'l_mid': 1.0, 's_mid': 1.0, 'l_tip': 1.0, 's_tip': 1.0}
+BENT = {**EVEN, 's_tip': 1.6}
+DRIVEN = {**EVEN, 's_tip': 4.0}
+SLACK = {**EVEN, 'l_tip': 0.0}
+SETTINGS = ArmSettings(ARM, NAMES)
+
+
+def tracked(*rows):
+    tracker = ArmTracker(ARM)
+    state = [tracker.update(row) for row in rows][-1]
+    return fill_arm_estimate(ArmEstimate(), Found(state, KnownLoad(Load()), SETTINGS), Header())
+
+
+def filtered(*rows):
+    arm = ArmFilter(ARM, tension_stddev=0.02)
+    state = [arm.update(row, time=0.01 * number) for number, row in enumerate(rows)][-1]
+    found = FilteredArmEstimate(state, KnownLoad(Load()), SETTINGS)
+    return fill_arm_estimate(ArmEstimate(), found, Header())
+
+
+STATES = {
+    'straight': lambda: tracked(EVEN),
+    'bent': lambda: tracked(EVEN, BENT),
+    'on its stops': lambda: tracked(DRIVEN),
+    'slack': lambda: tracked(BENT, SLACK),
+    'held after slack': lambda: tracked(BENT, SLACK, BENT),
+    'filtered': lambda: filtered(*[BENT] * 10),
+    # From whoever publishes the type.
+    'less than all': lambda: ArmEstimate(joint_names=list(NAMES), bend_angles=[0.1]),
+    'nothing': ArmEstimate,
+    'regimes of another kind': lambda: ArmEstimate(
+        joint_names=list(NAMES), regimes=['floating'] * 5, bend_angles=[math.inf] * 5
+    ),
+}
+
+
+@pytest.mark.parametrize('state', STATES)
+def test_words_and_drawing_are_one(state):
+    estimate = STATES[state]()
+    figure = ArmFigure()
+    figure.draw(ARM, estimate)
+    drawn = {name: source.data for name, source in figure._sources.items()}
+    words, table = arm_state_words(estimate, '', 0.0), joints_table(estimate, present=True)
+    joints = joints_said(estimate)
+
+    for text in (words, table):
+        assert 'nan' not in text
+        assert 'inf ' not in text
+    assert table.count('<tr>') == 1 + len(joints)
+    is_known = bool(joints) and all(math.isfinite(joint.angle) for joint in joints)
+    assert bool(drawn['units']['colour']) == is_known
+    for joint in joints:
+        angle = f'{math.degrees(joint.angle):.2f}°'
+        assert (angle in table) == math.isfinite(joint.angle)
+    if is_known:
+        assert drawn['units']['colour'] == [REGIME_COLOURS[Regime(of.regime)] for of in joints]
+        assert len(drawn['fans']['start']) == sum(joint.interval is not None for joint in joints)
+        tilt = 0.0
+        for start, end, of in zip(
+            drawn['fans']['start'], drawn['fans']['end'], joints, strict=False
+        ):
+            middle = 0.5 * math.pi - 0.5 * (start + end) - tilt
+            low, high = of.interval
+            assert middle == pytest.approx(0.5 * (low + high))
+            tilt += of.angle
+    assert set(arm_sample(estimate)) <= set(arm_names(estimate))
+
+
+@pytest.mark.parametrize(('said', 'age'), [(INVALID, 0.0), (STALE, 1.0), ('', OLD + 1.0)])
+def test_what_was_is_grey_and_said_to_have_been(said, age):
+    estimate, figure = tracked(BENT), ArmFigure()
+    words = arm_state_words(estimate, said, age)
+    assert LAST_KNOWN in words
+    assert f'color:{GREY}' in words
+    figure.draw(ARM, estimate, present=False)
+    assert set(figure._sources['units'].data['colour']) == {GREY}
+
+
+def test_the_worst_that_a_joint_does_is_said_first_with_its_name():
+    words = arm_state_words(tracked(BENT), '', 0.0)
+    assert 'slipping' in words
+    assert 'arm_joint_5' in words
+    assert 'arm_joint_1' not in words
+    assert 'slack' in arm_state_words(tracked(SLACK), '', 0.0)
+
+
+def test_a_joint_that_may_have_moved_unseen_is_named():
+    words = arm_state_words(tracked(BENT, SLACK, BENT), '', 0.0)
+    assert 'moved unseen' in words
+    assert 'moved unseen' not in arm_state_words(tracked(BENT), '', 0.0)
+
+
+def test_the_probability_of_a_regime_is_that_of_the_message():
+    estimate = filtered(*[EVEN] * 10)
+    for place, joint in enumerate(joints_said(estimate)):
+        assert joint.regime == 'held'
+        assert joint.probability == estimate.probabilities_held[place]
+    assert '100 %' in joints_table(estimate, present=True)
+
+
+def test_another_arm_is_not_drawn_for_the_one_that_speaks():
+    estimate = tracked(BENT)
+    assert is_of(estimate, ARM)
+    estimate.cable_names = ['a', 'b', 'c', 'd']
+    assert not is_of(estimate, ARM)
+    assert NO_ARM in arm_state_words(estimate, '', 0.0, is_drawn=False)
+
+
+def test_of_an_arm_that_is_left_nothing_stays():
+    figure = ArmFigure()
+    figure.draw(ARM, tracked(BENT))
+    figure.clear()
+    assert not any(any(source.data.values()) for source in figure._sources.values())
