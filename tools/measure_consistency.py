@@ -8,19 +8,21 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import itertools
 import math
 import secrets
 import sys
-from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
+from measure_filter.readings import readings
 from measure_filter.sessions import PROGRAMS, UNITS, Session, session, slip_tension
 
-from tendon_statics import JointDesign, StickSlipFilter, TensionError
+from tendon_statics import JointDesign, TensionError
 from tendon_statics.command_line.tables import markdown_table
-from tendon_statics.physics.filter.consistency import SLIPS
-from tendon_statics.physics.filter.scores import Score
+from tendon_statics.physics.filter.consistency import SLIPS, Consistency
+from tendon_statics.physics.filter.scores import MOST, Boundary, Score
 
 ALARM = 1e-9
 """Consistency below which the model counts as refuted"""
@@ -28,8 +30,14 @@ ALARM = 1e-9
 ENCODER = math.radians(0.2)
 """Standard deviation of a measured angle in rad"""
 
-LEVELS = (2.0, 3.0, 4.0)
+DEVIATIONS = 3.0
+"""Of a score, by which a fault moves the boundary"""
+
+LEVELS = (2.0, 3.0, 3.5)
 """Scores whose exceedance is compared with that of a normal distribution"""
+
+TILTS = (1.0, 2.0, 3.7)
+"""λ of Chernoff's bound of a sum of scores; that of ten slips and of three are 2 and 3.7"""
 
 
 class Fault(NamedTuple):
@@ -47,41 +55,39 @@ class Run(NamedTuple):
     found_after: float
     """Slips until the first alarm; infinite without one"""
     slips: int
-    scores: list[Score]
-    """Of onsets and landings"""
+    onsets: list[Score]
+    slides: list[Score]
     least: float
     """Lowest consistency"""
     seconds: float
 
 
 def run(drawn: Session, fault: Fault, random: np.random.Generator) -> Run:
-    """Run the filter over a session."""
-    found = StickSlipFilter(fault.design, tension_stddev=drawn.noise)
-    judge = found._consistency
-    found_after, least, seen, scores = math.inf, 1.0, 0, []
+    """Judge a session, as the filter does that has the design of a fault."""
     stop = fault.design.max_bend_angle
-    last = None
-    for time, angle, _, tension_l, tension_s in drawn.samples:
+    angles = fault.angle_sign * drawn.bend_angle + random.normal(0.0, ENCODER, len(drawn.time))
+    tensions = np.array([drawn.tension_l, drawn.tension_s + fault.bias])
+    judge = Consistency(Boundary(fault.design, 0.0, None))
+    found_after, least = math.inf, 1.0
+    slips: list[Any] = []
+    for reading in readings(
+        drawn.time, tensions, np.clip(angles, -stop, stop), drawn.noise, ENCODER
+    ):
         try:
-            found.update(tension_l, tension_s + fault.bias, time)
+            judge.take(reading)
         except TensionError:
-            continue
-        reading = fault.angle_sign * angle + random.normal(0.0, ENCODER)
-        found.measure(min(max(reading, -stop), stop), ENCODER)
+            judge.interrupt()
         newest = judge._slips[-1] if judge._slips else None
-        if newest is not last:
-            # A landing is judged anew while the slip goes on; the last one counts.
-            if last is not None and newest is not None and newest.onset is last.onset:
-                scores[-1] = newest.landing
-            elif newest is not None:
-                seen += 1
-                scores += newest.onset, newest.landing
-            last = newest
-        if not math.isnan(found.consistency):
-            least = min(least, found.consistency)
-            if found.consistency < ALARM:
-                found_after = min(found_after, seen)
-    return Run(found_after, seen, scores, least, float(drawn.time[-1]))
+        if newest is not None and not (slips and newest is slips[-1]):
+            slips.append(newest)
+        if not math.isnan(judge.probability):
+            least = min(least, judge.probability)
+            if judge.probability < ALARM:
+                found_after = min(found_after, len(slips))
+    slides = [score for slip in slips if (score := slip.slide.score) is not None]
+    return Run(
+        found_after, len(slips), [slip.onset for slip in slips], slides, least, drawn.time[-1]
+    )
 
 
 def moved(
@@ -89,10 +95,8 @@ def moved(
 ) -> JointDesign:
     """A design changed by a factor so that it slips at so many newtons more."""
     target = slip_tension(design, weak, 0.0) + shift
-    low, high = 1.0, 3.0
-    rising = slip_tension(change(high), weak, 0.0) > slip_tension(design, weak, 0.0)
-    if not rising:
-        low, high = 1.0 / 3.0, 1.0
+    low, high = 0.8, 1.25
+    rising = slip_tension(change(high), weak, 0.0) > slip_tension(change(low), weak, 0.0)
     for _ in range(50):
         middle = 0.5 * (low + high)
         if (slip_tension(change(middle), weak, 0.0) < target) == rising:
@@ -102,10 +106,9 @@ def moved(
     return change(0.5 * (low + high))
 
 
-def faults(unit: str, deviation: float) -> dict[str, Fault]:
-    """The faults of a unit that move its boundary by three deviations in N, and others."""
+def faults(unit: str, shift: float) -> dict[str, Fault]:
+    """The faults of a unit that move its boundary by so many newtons, and others."""
     design, weak = UNITS[unit]
-    shift = 3.0 * deviation
 
     def friction(factor: float) -> JointDesign:
         return dataclasses.replace(
@@ -119,8 +122,8 @@ def faults(unit: str, deviation: float) -> dict[str, Fault]:
 
     return {
         'friction coefficient': Fault(moved(design, weak, shift, friction)),
-        'bias of 3 deviations': Fault(design, bias=shift),
-        'bias of 0.03 N': Fault(design, bias=0.03),
+        'bias': Fault(design, bias=shift),
+        'bias of 0.03 N': Fault(design, bias=math.copysign(0.03, shift)),
         'slipped cable': Fault(moved(design, weak, shift, lever)),
         'swapped sign': Fault(design, angle_sign=-1.0),
     }
@@ -130,7 +133,7 @@ def main() -> int:
     """Measure and print the tables."""
     parser = argparse.ArgumentParser(description='Measure the consistency of StickSlipFilter.')
     parser.add_argument('--sessions', type=int, default=4, metavar='N', help='of each row')
-    parser.add_argument('--seconds', type=float, default=30.0, metavar='S', help='of a session')
+    parser.add_argument('--seconds', type=float, default=14.0, metavar='S', help='of a session')
     parser.add_argument('--noise', type=float, default=0.01, metavar='N', help='in N')
     parser.add_argument('--rate', type=float, default=500.0, metavar='HZ')
     parser.add_argument('--right', action='store_true', help='only the right model')
@@ -139,27 +142,32 @@ def main() -> int:
     random = np.random.default_rng(options.seed)
     rows, right = [], []
 
-    def runs_of(unit: str, fault: Fault, programs: Sequence[str]) -> list[Run]:
-        runs = []
-        for number in range(options.sessions):
-            program = programs[number % len(programs)]
-            drawn = session(unit, program, options.noise, options.rate, options.seconds, random)
-            runs.append(run(drawn, fault, random))
-            print('.', end='', file=sys.stderr, flush=True)
-        return runs
+    def drawn(unit: str, program: str) -> Session:
+        print('.', end='', file=sys.stderr, flush=True)
+        return session(unit, program, options.noise, options.rate, options.seconds, random)
 
     for unit, (design, _) in UNITS.items():
-        runs = runs_of(unit, Fault(design), ('strokes', *PROGRAMS))
+        programs = itertools.cycle(('strokes', *PROGRAMS) if options.right else ('strokes',))
+        runs = [
+            run(drawn(unit, program), Fault(design), random)
+            for _, program in zip(range(options.sessions), programs, strict=False)
+        ]
         right += runs
-        deviation = float(np.nanmedian([score.deviation for one in runs for score in one.scores]))
+        deviations = [score.deviation for one in runs for score in (*one.onsets, *one.slides)]
+        deviation = float(np.nanmedian(deviations))
         rows.append((unit, 'none', f'{1e3 * deviation:.1f}', *_row(runs)))
-        for name, fault in faults(unit, deviation).items() if not options.right else ():
-            rows.append((unit, name, '', *_row(runs_of(unit, fault, ('strokes',)))))
+        if options.right:
+            continue
+        of_fault: dict[str, list[Run]] = {}
+        for number in range(options.sessions):
+            shift = DEVIATIONS * deviation * (-1.0) ** number
+            for name, fault in faults(unit, shift).items():
+                of_fault.setdefault(name, []).append(run(drawn(unit, 'strokes'), fault, random))
+        rows += [(unit, name, '', *_row(runs)) for name, runs in of_fault.items()]
     print(file=sys.stderr)
     titles = ('unit', 'fault', 'deviation [mN]:', 'score:', 'slips:', 'found [%]:')
     print(markdown_table((*titles, 'within ten slips [%]:', 'slips until found:'), rows))
-    if right:
-        _print_right(right)
+    _print_right(right)
     print(
         f'\n{options.sessions} sessions of {options.seconds:g} s at {options.rate:g} Hz and '
         f'{1e3 * options.noise:g} mN, seed {options.seed}'
@@ -168,7 +176,9 @@ def main() -> int:
 
 
 def _row(runs: list[Run]) -> tuple[str, ...]:
-    scores = [abs(score.value) for one in runs for score in one.scores if score.value]
+    scores = [
+        abs(score.value) for one in runs for score in (*one.onsets, *one.slides) if score.value
+    ]
     after = [one.found_after for one in runs]
     found = [one for one in after if math.isfinite(one)]
     return (
@@ -182,18 +192,33 @@ def _row(runs: list[Run]) -> tuple[str, ...]:
 
 def _print_right(runs: list[Run]) -> None:
     """Say how the scores are distributed while the model is right."""
-    scores = np.array([score.value for one in runs for score in one.scores])
     hours = sum(one.seconds for one in runs) / 3600.0
     alarms = sum(math.isfinite(one.found_after) for one in runs)
     print(
         f'\nWith the right model: {hours:.2f} h, {sum(one.slips for one in runs)} slips, '
         f'{alarms} false alarms, lowest consistency {min(one.least for one in runs):.1e}.'
     )
-    for level in LEVELS:
-        share = np.mean(np.abs(scores) > level)
-        normal = math.erfc(level / math.sqrt(2.0))
-        print(f'Scores beyond {level:g}: {share:.5f}, of a normal distribution {normal:.5f}.')
-    print(f'Largest score {np.abs(scores).max():.1f}.')
+    for name, found in (
+        ('Onsets', [score.value for one in runs for score in one.onsets]),
+        ('Slides', [score.value for one in runs for score in one.slides]),
+    ):
+        if not found:
+            continue
+        scores = np.array(found)
+        shares = ', '.join(
+            f'{np.mean(np.abs(scores) > level):.1e} beyond {level:g} '
+            f'(normal {math.erfc(level / math.sqrt(2.0)):.1e})'
+            for level in LEVELS
+        )
+        print(f'{name}: {shares}; largest {np.abs(scores).max():.1f}.')
+        counted = np.clip(scores, -MOST, MOST)
+        worst = [
+            max(np.mean(np.exp(sign * tilt * counted)) for sign in (-1.0, 1.0))
+            / math.exp(0.5 * tilt**2)
+            for tilt in TILTS
+        ]
+        ratios = [f'{one:.2f} at λ = {tilt:g}' for tilt, one in zip(TILTS, worst, strict=True)]
+        print(f'{name}: mean exp(±λ score) / exp(λ²/2) is {", ".join(ratios)}.')
 
 
 if __name__ == '__main__':

@@ -4,9 +4,9 @@ Under the model a unit is never driven beyond the boundary of slip, g ≤ 0, and
 boundary, g = 0, while it slips. How far readings are from that, in deviations, is a score:
 
 - Of a slip there are two. At its onset the boundary was reached where the unit had rested, and not
-  passed before; at its landing it is reached where the unit is seen to stop, and not passed. The
-  scores of the newest slips are added up, once as they are, since a wrong coefficient of friction
-  shows the same to both sides, and once by side, since a bias does not.
+  passed before. From then on the unit is on the boundary, until the drive recedes (see `sliding`).
+  The scores of the newest slips are added up, once as they are, since a wrong coefficient of
+  friction shows the same to both sides, and once by side, since a bias does not.
 - Of a rest, how far the unit is driven beyond the boundary, if it is for a while.
 
 A unit that rests within the boundary is consistent with most models, and says nothing. Readings
@@ -17,20 +17,18 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Sequence
 from statistics import NormalDist
 from typing import NamedTuple
 
-from ..tensions import taut_slip
 from .scores import MOVED, Boundary, Group, Reading, Score, together
+from .sliding import Slide
 
 SLIPS = 10
 """Newest slips that are judged together"""
 
 TOGETHER = 5
 """Readings that are judged as one group"""
-
-SLIDES = 3.0
-"""Deviations from one group to the next above which a unit that has slipped slides on"""
 
 SAME_SLIP = 0.5
 """Time in s within which motion to the same side is one slip"""
@@ -44,12 +42,25 @@ STATISTICS = 5
 _NORMAL = NormalDist()
 
 
+class _Sample(NamedTuple):
+    """A reading, measured or not, with how hard its tensions drive the unit, and to which side."""
+
+    reading: Reading
+    side: float
+    drive: float
+    """Slip function times the sum of the tensions, in N"""
+
+    @property
+    def is_measured(self) -> bool:
+        return not math.isnan(self.reading.bend_angle)
+
+
 class _Slipping(NamedTuple):
-    """A slip: to which side, its onset and its landing."""
+    """A slip: to which side, its onset, and how the unit slid from there."""
 
     side: float
     onset: Score
-    landing: Score
+    slide: Slide
 
 
 class Consistency:
@@ -63,36 +74,85 @@ class Consistency:
 
     def __init__(self, boundary: Boundary) -> None:
         self._boundary = boundary
-        self._readings: list[Reading] = []
-        self._groups: deque[Group] = deque(maxlen=4)
-        self._rest: list[Group] = []
         self._slips: deque[_Slipping] = deque(maxlen=SLIPS)
-        self._last_motion = -math.inf
-        self._driven: deque[float] = deque(maxlen=REST_GROUPS)
         self.probability = math.nan
         """Probability of readings as bad as the newest under the model; NaN while there are none.
 
         Of several kinds the worst, counted as often as there are kinds."""
+        self.interrupt()
+
+    def interrupt(self) -> None:
+        """Take it that the unit may have moved unseen; what slips have told stays."""
+        self._place = math.nan
+        self._readings: list[Reading] = []
+        self._newest: list[_Sample] = []
+        self._groups: deque[Group] = deque(maxlen=REST_GROUPS)
+        self._samples: deque[list[_Sample]] = deque(maxlen=REST_GROUPS)
+        self._rest: list[Group] = []
+        self._hardest: dict[float, _Sample] = {}
+        self._driven: deque[float] = deque(maxlen=REST_GROUPS)
+        self._last_motion = -math.inf
+        self._slide: Slide | None = None
+
+    @property
+    def has_place(self) -> bool:
+        """Whether an angle was measured, so that samples without one count too."""
+        return not math.isnan(self._place)
 
     def take(self, reading: Reading) -> None:
-        """Take an angle that was measured, later than those before."""
+        """Take a sample later than those before, whether its angle was measured or not.
+
+        The first has to be measured.
+        """
+        if not self.has_place:
+            self._place = reading.bend_angle
+        self._append(reading)
+        if self._slide is not None:
+            self._slide.take(reading)
+        if math.isnan(reading.bend_angle):
+            return
         self._readings.append(reading)
         if len(self._readings) < TOGETHER:
             return
-        self._groups.append(Group.of(self._readings))
-        self._readings.clear()
+        self._close_group()
         self._judge_rest(self._groups[-1])
         if len(self._groups) > 1:
             self._judge_motion()
         self.probability = min(1.0, STATISTICS * min(self._probabilities()))
 
+    def _append(self, reading: Reading) -> None:
+        """Keep a sample; between two measured ones the hardest to each side."""
+        slip, probe = self._boundary.driving(reading, self._place)
+        sample = _Sample(reading, slip.side, probe[1] * slip.total)
+        if not sample.is_measured:
+            for index in range(len(self._newest) - 1, -1, -1):
+                other = self._newest[index]
+                if other.is_measured:
+                    break
+                if other.side == sample.side:
+                    self._newest[index] = max(other, sample, key=_drive)
+                    return
+        self._newest.append(sample)
+
+    def _close_group(self) -> None:
+        """Make a group of the newest readings; of the oldest only the hardest drives are kept."""
+        if len(self._samples) == REST_GROUPS:
+            for sample in self._samples[0]:
+                hardest = self._hardest.get(sample.side, sample)
+                self._hardest[sample.side] = max(hardest, sample, key=_drive)
+        self._groups.append(Group.of(self._readings))
+        self._samples.append(self._newest)
+        self._place = self._groups[-1].mean
+        self._readings, self._newest = [], []
+
     def _probabilities(self) -> list[float]:
-        slips = self._slips
-        sums = [
-            together(scores, signs)
-            for scores in ([slip.onset for slip in slips], [slip.landing for slip in slips])
-            for signs in ([1.0] * len(slips), [slip.side for slip in slips])
-        ]
+        onsets = [(slip.side, slip.onset) for slip in self._slips]
+        slides = [(slip.side, slip.slide.score) for slip in self._slips]
+        sums = []
+        for found in (onsets, slides):
+            told = [(side, score) for side, score in found if score is not None]
+            scores = [score for _, score in told]
+            sums += [together(scores, [1.0] * len(told)), together(scores, [s for s, _ in told])]
         driven = min(self._driven) if len(self._driven) == REST_GROUPS else 0.0
         return [2.0 * _NORMAL.cdf(-abs(value)) for value in sums] + [
             _NORMAL.cdf(-max(driven, 0.0))
@@ -100,9 +160,16 @@ class Consistency:
 
     def _judge_rest(self, group: Group) -> None:
         """Hold that a unit is not driven beyond the boundary, unless against a stop."""
-        first = group.readings[0]
-        slip, _ = taut_slip(self._boundary.design, first.tensions, first.load).driving(group.mean)
-        self._driven.append(self._overdriven(group, slip.side).value)
+        slip, _ = self._boundary.driving(group.readings[0], group.mean)
+        self._driven.append(self._beyond(group.readings, slip.side).value)
+
+    def _beyond(self, readings: Sequence[Reading], side: float) -> Score:
+        """How far beyond the boundary readings are; nothing against a stop, or while it jumps."""
+        if any(self._boundary.is_at_stop(one, side) for one in readings):
+            return Score()
+        if not Group.of(readings).is_steady:
+            return Score()
+        return self._boundary.score_of(readings, side)
 
     def _judge_motion(self) -> None:
         """Find out whether the unit has moved, as the newest two groups both say."""
@@ -117,58 +184,49 @@ class Consistency:
                 self._rest.append(group)
             return
         time = newest.readings[-1].time
-        landing = self._landing(newest, side)
         last = self._slips[-1] if self._slips else None
-        if last and last.side == side and time - self._last_motion < SAME_SLIP:
-            self._slips[-1] = last._replace(landing=landing)
-        else:
-            self._slips.append(_Slipping(side, self._onset(rest, side), landing))
+        if not (last and last.side == side and time - self._last_motion < SAME_SLIP):
+            self._slips.append(self._slipping(rest, side))
+            self._slide = self._slips[-1].slide
         self._last_motion = time
-        self._rest = [newest]
+        # What comes next is a rest again, until it is found that the unit slides on.
+        samples = self._samples[-1]
+        self._groups.clear()
+        self._samples.clear()
+        self._groups.append(newest)
+        self._samples.append(samples)
+        self._rest, self._hardest = [], {}
 
-    def _onset(self, rest: Group, side: float) -> Score:
-        """How far beyond the boundary a unit was before it slipped, or short of it until then."""
-        readings = [one for group in self._groups for one in group.readings]
+    def _slipping(self, rest: Group, side: float) -> _Slipping:
+        """Judge where a unit slipped that had rested."""
+        samples = [one for part in self._samples for one in part]
         left = [
-            side * (one.bend_angle - rest.mean) > MOVED * math.hypot(one.stddev, rest.error)
-            for one in readings
+            one.is_measured
+            and side * (one.reading.bend_angle - rest.mean)
+            > MOVED * math.hypot(one.reading.stddev, rest.error)
+            for one in samples
         ]
         # A unit that jumps is seen to leave; of one that slides away it is not sure when it left.
-        first = left.index(True) if True in left else len(readings) - 1
-        before = readings[max(first - 2, 0) : first] if True in left else readings[:TOGETHER]
-        if before:
-            group = Group.of(before)
-            beyond = self._overdriven(group, side)
-            if beyond.value > 0.0:
-                return beyond
-        return self._short(readings[: first + 1], rest, side)
+        first = left.index(True) if True in left else len(samples) - 1
+        earlier = [*self._hardest.values(), *samples[:first]]
+        pushes = [self._boundary.push(one.reading, rest.mean, side)[0] for one in earlier]
+        slide = Slide(self._boundary, side, rest.mean, max(pushes, default=-math.inf))
+        for one in samples[first:]:
+            slide.take(one.reading)
+        before = [one.reading for one in samples[:first] if one.is_measured]
+        onset = self._beyond(before[-1:], side) if before and True in left else Score()
+        if not onset.value > 0.0:
+            onset = max(
+                self._score_at(one.reading, rest, side) for one in (*earlier, samples[first])
+            )
+            onset = onset._replace(value=min(onset.value, 0.0))
+        return _Slipping(side, onset, slide)
 
-    def _landing(self, group: Group, side: float) -> Score:
-        """How far beyond the boundary a unit stops that has slipped, or short of it."""
-        if not group.is_steady:
-            return Score()
-        beyond = self._overdriven(group, side)
-        before = self._groups[-2]
-        if side * (group.mean - before.mean) > SLIDES * math.hypot(group.error, before.error):
-            return beyond  # It is on the boundary all the time.
-        readings = [one for part in list(self._groups)[-3:] for one in part.readings]
-        return beyond if beyond.value > 0.0 else self._short(readings, group, side)
+    def _score_at(self, reading: Reading, place: Group, side: float) -> Score:
+        """How far beyond the boundary a unit at a place is at the tensions of a reading."""
+        found = self._boundary.excess(reading, place.mean, place.error, side)
+        return self._boundary.score(found, reading, place.mean, side)
 
-    def _overdriven(self, group: Group, side: float) -> Score:
-        """How far beyond the boundary a group is; nothing against a stop, or while it jumps."""
-        spread = MOVED * group.readings[0].stddev
-        if (
-            not group.is_steady
-            or side * group.mean > self._boundary.design.max_bend_angle - spread
-        ):
-            return Score()
-        return self._boundary.score(
-            [(one, one.bend_angle) for one in group.readings], side, group.error
-        )
 
-    def _short(self, readings: list[Reading], place: Group, side: float) -> Score:
-        """How far short of the boundary a unit at a place remains at all of these readings."""
-        nearest = max(
-            self._boundary.score([(one, place.mean)], side, place.error) for one in readings
-        )
-        return nearest._replace(value=min(nearest.value, 0.0))
+def _drive(sample: _Sample) -> float:
+    return sample.drive

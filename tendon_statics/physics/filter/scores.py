@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -11,10 +12,14 @@ from ..design_gradients import excess_by_design
 from ..design_uncertainty import DesignUncertainty
 from ..gradients import slip_by_tensions
 from ..load import Load
+from ..slip import Probe, Slip
 from ..tensions import Tensions, taut_slip
 
 MOVED = 6.0
 """Deviations above which the unit has moved, from a mean at rest or within a group of readings"""
+
+MOST = 4.0
+"""Deviations at which a score counts in a sum, if it is that or more"""
 
 
 class Reading(NamedTuple):
@@ -22,6 +27,7 @@ class Reading(NamedTuple):
 
     time: float
     bend_angle: float
+    """In rad; NaN where only the tensions were measured"""
     stddev: float
     tensions: Tensions
     errors: tuple[float, float]
@@ -62,6 +68,25 @@ class Group(NamedTuple):
         return cls(tuple(readings), mean, math.sqrt(square) / count)
 
 
+class Excess(NamedTuple):
+    """The slip function of one reading, or its sum over some, with what its errors come from."""
+
+    value: float
+    noise: float
+    """Standard deviation from the noise of the tensions, which readings in a row share"""
+    bias: float
+    """Derivative by the bias of the tensions, per N"""
+    angle_variance: float
+    """From that of the angle"""
+    ahead: float
+    """Derivative by the tension of the cable ahead, per N"""
+    readings: float = 1.0
+
+    def plus(self, other: Excess) -> Excess:
+        """Return the sum of both."""
+        return Excess(*(one + more for one, more in zip(self, other, strict=True)))
+
+
 class Boundary:
     """The boundary of slip of a design, as far as bias and design are known.
 
@@ -81,29 +106,53 @@ class Boundary:
         self._bias_stddev = bias_stddev
         self._uncertainty = uncertainty
 
-    def score(
-        self, places: Sequence[tuple[Reading, float]], side: float, angle_error: float
-    ) -> Score:
-        """Return the mean slip function of readings at angles in rad, in deviations."""
-        stop, lever = self.design.max_bend_angle, self.design.relative_lever
-        excess = noise = bias = slope = ahead = 0.0
-        for reading, angle in places:
-            slip = taut_slip(self.design, reading.tensions, reading.load, side)
-            point = slip.at(min(max(side * angle, -stop), stop))
-            by = slip_by_tensions(slip, point, lever)
-            of_behind, of_ahead = reading.errors[:: int(side)]
-            excess += point.excess
-            slope += point.slope
-            noise += math.hypot(by[0] * of_behind, by[1] * of_ahead)
-            bias += math.hypot(*by)
-            ahead += abs(by[1])
+    def is_at_stop(self, reading: Reading, side: float) -> bool:
+        """Whether a unit may lie against a stop, beyond which nothing is seen."""
+        return side * reading.bend_angle > self.design.max_bend_angle - MOVED * reading.stddev
+
+    def driving(self, reading: Reading, place: float) -> tuple[Slip, Probe]:
+        """Return the slip function to the side to which a reading's tensions drive, and there."""
+        stop = self.design.max_bend_angle
+        slip = taut_slip(self.design, reading.tensions, reading.load)
+        return slip.driving(min(max(place, -stop), stop))
+
+    def push(self, reading: Reading, place: float, side: float) -> tuple[float, float]:
+        """Return by how much a reading's tensions drive a unit at a place, and the error, in N."""
+        found = self.excess(reading, place, 0.0, side)
+        total = sum(reading.tensions)
+        return found.value * total, found.noise * total
+
+    def excess(self, reading: Reading, angle: float, error: float, side: float) -> Excess:
+        """Return the slip function at an angle in rad, which has an error."""
+        stop = self.design.max_bend_angle
+        slip = taut_slip(self.design, reading.tensions, reading.load, side)
+        point = slip.at(min(max(side * angle, -stop), stop))
+        by_behind, by_ahead = slip_by_tensions(slip, point, self.design.relative_lever)
+        of_behind, of_ahead = reading.errors[:: int(side)]
+        return Excess(
+            point.excess,
+            math.hypot(by_behind * of_behind, by_ahead * of_ahead),
+            math.hypot(by_behind, by_ahead),
+            (point.slope * error) ** 2,
+            abs(by_ahead),
+        )
+
+    def score(self, found: Excess, reading: Reading, angle: float, side: float) -> Score:
+        """Return an excess in deviations; reading and angle are where the design's own is seen."""
         # Tensions of one time have much of their noise in common, so that its mean is no smaller.
-        own = noise**2 + (slope * angle_error) ** 2
-        shared = (bias * self._bias_stddev) ** 2
-        if self._uncertainty is not None and excess**2 > own + shared:
-            shared += len(places) ** 2 * self._by_design(*places[-1], side)
+        own = found.noise**2 + found.angle_variance
+        shared = (found.bias * self._bias_stddev) ** 2
+        if self._uncertainty is not None and found.value**2 > own + shared:
+            shared += found.readings**2 * self._by_design(reading, angle, side)
         deviation = math.sqrt(own + shared)
-        return Score(excess / deviation, shared / deviation**2, deviation / ahead)
+        return Score(found.value / deviation, shared / deviation**2, deviation / found.ahead)
+
+    def score_of(self, readings: Sequence[Reading], side: float) -> Score:
+        """Return the mean slip function of readings, each at its own angle, in deviations."""
+        total = functools.reduce(
+            Excess.plus, (self.excess(one, one.bend_angle, one.stddev, side) for one in readings)
+        )
+        return self.score(total, readings[-1], readings[-1].bend_angle, side)
 
     def _by_design(self, reading: Reading, angle: float, side: float) -> float:
         """Variance of the slip function from the design's own."""
@@ -124,8 +173,14 @@ class Boundary:
 
 
 def together(scores: Sequence[Score], signs: Sequence[float]) -> float:
-    """Return the sum of scores in deviations of it; 0 where there are none."""
+    """Return the sum of scores in deviations of it; 0 where there are none.
+
+    Each counts `MOST` at the most, so that no single slip refutes the model.
+    """
     own = sum(1.0 - score.shared for score in scores)
     shared = sum(math.sqrt(score.shared) for score in scores)
-    total = sum(sign * score.value for sign, score in zip(signs, scores, strict=True))
+    total = sum(
+        sign * min(max(score.value, -MOST), MOST)
+        for sign, score in zip(signs, scores, strict=True)
+    )
     return total / math.sqrt(own + shared**2) if scores else 0.0

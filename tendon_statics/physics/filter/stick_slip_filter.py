@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -75,9 +76,10 @@ class StickSlipFilter(LaggedFilter[FilterState, Floats]):
         seed: int = 0,
     ) -> None:
         check_least('bend_angle_stddev', bend_angle_stddev, 0.0)
-        super().__init__(2, tension_stddev, tension_bias_stddev, lag)
         self._design = design
         self._boundary = Boundary(design, tension_bias_stddev, design_covariance)
+        self._consistency = Consistency(self._boundary)
+        super().__init__(2, tension_stddev, tension_bias_stddev, lag)
         self._ensemble = Ensemble(design, tension_bias_stddev, design_covariance, seed)
         self.reset(bend_angle, bend_angle_stddev)
 
@@ -196,17 +198,23 @@ class StickSlipFilter(LaggedFilter[FilterState, Floats]):
 
     def _judge(self, sample: Sample, estimate: Estimate) -> None:
         """Hold the angle that was measured at a sample, if it was, against its tensions."""
-        if sample.reading is None:
+        if sample.reading is None and not self._consistency.has_place:
             return
         tensions = Tensions(*estimate.value.tolist())
         try:
             taut_slip(self._design, tensions, sample.load)
         except TensionError:
+            self._consistency.interrupt()
             return
         of_l, of_s = estimate.error.tolist()
+        angle, stddev = sample.reading or (math.nan, math.nan)
         self._consistency.take(
-            Reading(sample.time, *sample.reading, tensions, (of_l, of_s), sample.load)
+            Reading(sample.time, angle, stddev, tensions, (of_l, of_s), sample.load)
         )
+
+    def _forget_samples(self) -> None:
+        super()._forget_samples()
+        self._consistency.interrupt()
 
     @property
     def consistency(self) -> float:
