@@ -28,9 +28,9 @@ class Pushed(NamedTuple):
 
     def found(self, **changed):
         asked = {'bend_angles': self.angles, 'load': self.load, **changed}
-        tensions = asked.pop('tensions', self.tensions)
+        arm, tensions = asked.pop('arm', self.arm), asked.pop('tensions', self.tensions)
         direction = tuple(asked.pop('direction', self.direction))
-        return arm_tip_force(self.arm, tensions, direction=direction, **asked)
+        return arm_tip_force(arm, tensions, direction=direction, **asked)
 
 
 def random_pushed(draw, friction=True):
