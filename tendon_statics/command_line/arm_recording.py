@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..estimation.arm_settings import ArmSettings
-from ..files.arm_file import load_arm
+from ..files.arm_file import load_arm, load_arm_uncertainties
 from ..files.arm_parameters import ARM_ESTIMATIONS, ARM_TENSION_SOURCES
 from ..files.arm_settings import arm_settings_from, joint_names
 from ..files.parameter_file import node_parameters, read_parameters
@@ -143,7 +143,8 @@ def _settings_from(options: argparse.Namespace) -> tuple[ArmSettings, Mapping[st
             given = node_parameters(read_parameters(Path(path)), node)
         named = options.joint_names or given.get('joint_names') or ()
         names = joint_names(arm, named, given.get('arm_name') or 'arm')
-        settings = arm_settings_from(arm, given, names)
+        uncertainties = load_arm_uncertainties(options.arm)
+        settings = arm_settings_from(arm, given, names, uncertainties)
     except (ParameterFileError, SettingError) as error:
         raise ArmError(f'{path}: {error}') from None
     stddev = options.tension_stddev or (

@@ -36,7 +36,7 @@ class ArmEstimator(ManagedEstimator[ArmSettings, ArmEstimate]):
 
     def _declare(self) -> None:
         self._wiring, self.arm = declare_arm_wiring(self)
-        self.table = arm_table(self.arm, self._wiring.joint_names)
+        self.table = arm_table(self.arm, self._wiring)
         check_cables(self, self.arm)
         self.table.declare_changeable(self)
 

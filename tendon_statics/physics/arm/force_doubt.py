@@ -136,7 +136,8 @@ class JointScores(ForceScores):
             return 0.0
         step = STEP * unit.total / size
         more = unit._replace(dead=unit.dead.plus(change, step))
-        return (more.lift(force) - unit.lift(force)) / step
+        by_load: float = (more.lift(force) - unit.lift(force)) / step
+        return by_load
 
 
 class ArmDoubt(NamedTuple):
