@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 
 from ..design_uncertainty import DesignUncertainty
@@ -10,11 +11,20 @@ from ..regime import Regime
 from ..tip_force import may_be_at_stop
 from ..tip_force_state import SAME_ANGLE, agree
 from .filter import ArmFilterState
+from .force_doubt import ArmNoise, joint_scores
 from .joints import check_joint, check_joint_angle
+from .pushed_arm import PushedArm
 from .state import ArmState
 from .tip_force import NONE_SLIPS, ArmTipForce, arm_tip_force
 
 NONE_MEASURED: Mapping[int, float] = {}
+
+FULL_MARGIN = 1.0 - 1e-9
+"""|M| / K from which on a joint that has slipped is still at its limit: others that slipped after
+it may have taken it back from there"""
+
+NOT_AT_LIMIT = -2.0
+"""Deviations of g from its limit, as noisy tensions have it, from which on it is not at it"""
 
 
 def arm_tip_force_of_state(
@@ -32,8 +42,9 @@ def arm_tip_force_of_state(
 
     As `arm_tip_force`, for the load of the state and its tensions at all joints. A joint that was
     measured is where it was measured; of the others the state has to do, with its deviations.
-    Where a tracker or a filter has a joint slipping, and its measured angle agrees, it is at its
-    limit. Next to a stop the stop is taken to carry what friction does not.
+    Where a tracker or a filter has a joint slipping, still at the limit of its friction, and its
+    measured angle agrees, it is taken to be there. Next to a stop the stop is taken to carry what
+    friction does not.
 
     The load of the state is part of how it was followed, so that only measured angles tell of a
     force: of an arm of which none is measured zero is always in the set, and is the number while
@@ -69,13 +80,13 @@ def arm_tip_force_of_state(
     of_state = state.bend_angles or (0.0,) * len(arm.units)
     own_stddevs = stddevs_of_angles(state, tension_stddev)
     angles, stddevs, at_stop = [], [], []
-    slips = dict(slipping)
-    for index, (design, own, regime, is_assured) in enumerate(
-        zip(arm.designs, of_state, state.regimes, state.angles_assured, strict=True)
+    slips, limits = dict(slipping), _at_limit(state, tension_stddev)
+    for index, (design, own, is_assured) in enumerate(
+        zip(arm.designs, of_state, state.angles_assured, strict=True)
     ):
         number, own_stddev = index + 1, own_stddevs[index]
         angle, stddev = measured.get(index), bend_angle_stddev
-        is_slipping = regime is Regime.SLIPPING
+        is_slipping = index in limits
         if angle is None:
             if not is_assured and not state.is_slack:
                 raise BendAngleError(
@@ -90,8 +101,7 @@ def arm_tip_force_of_state(
         if angle and may_be_at_stop(design, angle, stddev + SAME_ANGLE):
             at_stop.append(number)
         elif is_slipping:
-            to_s = (state.slip_margins[index] or 0.0) > 0.0
-            slips.setdefault(number, 's' if to_s else 'l')
+            slips.setdefault(number, limits[index])
     return arm_tip_force(
         *(arm, state.cable_tensions or state.tensions),
         bend_angles=angles,
@@ -104,6 +114,32 @@ def arm_tip_force_of_state(
         design_covariance=design_covariance,
         level=level,
     )
+
+
+def _at_limit(state: ArmState | ArmFilterState, tension_stddev: float) -> dict[int, str]:
+    """Return the joints that slip and are at their limit, by index, and towards which cables."""
+    slipping = {
+        index: margin
+        for index, (regime, margin) in enumerate(
+            zip(state.regimes, state.slip_margins, strict=True)
+        )
+        if regime is Regime.SLIPPING and margin
+    }
+    if isinstance(state, ArmState):
+        at_limit = [index for index, margin in slipping.items() if abs(margin) >= FULL_MARGIN]
+    elif slipping:
+        angles, stddevs = list(state.bend_angles or ()), stddevs_of_angles(state, tension_stddev)
+        known = [stddev or 0.0 for stddev in stddevs]
+        pushed = PushedArm.of(state.arm, state.cable_tensions, angles, (1.0, 0.0), state.load)
+        scores = joint_scores(pushed, ArmNoise(tension_stddev, known, [None] * len(known)))
+        at_limit = [
+            index
+            for index, margin in slipping.items()
+            if scores[index].towards(0.0, math.copysign(1.0, margin)) > NOT_AT_LIMIT
+        ]
+    else:
+        at_limit = []
+    return {index: 's' if slipping[index] > 0.0 else 'l' for index in at_limit}
 
 
 def stddevs_of_angles(
