@@ -45,6 +45,8 @@ class Job(NamedTuple):
     law: str
     seed: int
     draws: int
+    kinds: tuple[str, ...]
+    """Of `KINDS`"""
 
 
 class Truth(NamedTuple):
@@ -101,7 +103,7 @@ def counts(job: Job) -> dict[tuple[bool, str], tuple[int, int]]:
     truth = true_unit(draw, job.law)
     found: dict[tuple[bool, str], tuple[int, int]] = {}
     for is_exact in (True, False):
-        for kind in KINDS:
+        for kind in job.kinds:
             results = [covered(truth, kind, draw, is_exact=is_exact) for _ in range(job.draws)]
             known = [result for result in results if result is not None]
             found[is_exact, kind] = len(known), sum(known)
@@ -174,10 +176,13 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument('--units', type=int, default=400, help='of each law')
     parser.add_argument('--draws', type=int, default=5, help='of each unit and kind of force')
     parser.add_argument('--seed', type=int, default=0, help='of the first unit')
+    parser.add_argument('--laws', nargs='+', choices=LAWS, default=LAWS, help='default: all')
+    parser.add_argument('--kinds', nargs='+', choices=KINDS, default=tuple(KINDS), help='likewise')
     parser.add_argument('--workers', type=int, default=len(os.sched_getaffinity(0)))
     options = parser.parse_args(arguments)
     seeds = range(options.seed, options.seed + options.units)
-    jobs = [Job(law, seed, options.draws) for law in LAWS for seed in seeds]
+    laws, kinds = options.laws, tuple(options.kinds)
+    jobs = [Job(law, seed, options.draws, kinds) for law in laws for seed in seeds]
     results = list(synthetic_units.run_all(counts, jobs, options.workers))
     print(
         f'{options.units} units of each law from seed {options.seed}, {options.draws} draws of '
@@ -185,19 +190,19 @@ def main(arguments: list[str] | None = None) -> int:
         '| law | true force | design exact | design uncertain | draws |\n|---|---|--:|--:|--:|'
     )
     for law, rows in by_law(jobs, results):
-        for kind, text in KINDS.items():
+        for kind in kinds:
             shares, total = [], 0
             for is_exact in (True, False):
                 drawn, held = (sum(row[is_exact, kind][of] for row in rows) for of in (0, 1))
                 shares.append(f'{100.0 * held / max(drawn, 1):.1f} %')
                 total += drawn
-            print(f'| {law} | {text} | {" | ".join(shares)} | {total} |')
+            print(f'| {law} | {KINDS[kind]} | {" | ".join(shares)} | {total} |')
     return 0
 
 
 def by_law(jobs: list[Job], results: list[Any]) -> Iterator[tuple[str, list[Any]]]:
     """Yield the results of each law."""
-    for law in LAWS:
+    for law in dict.fromkeys(job.law for job in jobs):
         yield law, [row for job, row in zip(jobs, results, strict=True) if job.law == law]
 
 

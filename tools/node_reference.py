@@ -92,10 +92,14 @@ MEANINGS_OF_ARM = {
     '~/tip_force': 'the forces on the end of the last unit along `tip_direction` that all joints '
     'explain, where their angles are known; at most 50 a second, and for at most a fifth of the '
     'time',
+    '~/tip_wrench': 'that force, only while a joint is at the limit of friction and the angles of '
+    'all are measured',
     '~/markers': 'for RViz: the units, the regimes as colours',
     '/diagnostics': MEANINGS['/diagnostics'] + ', with the worst joint',
     '~/solve_arm': 'where tensions would take the arm from stated angles, or from where it is, '
     'under the load of the node or another',
+    '~/solve_tip_force': 'the forces on the end of the last unit that explain tensions and angles '
+    'of all joints',
     '~/reset': 'put the joints to `initial_bend_angles`',
     '~/tare': MEANINGS['~/tare'].replace('both were', 'all were'),
     '~/solve_latest': MEANINGS['~/solve_latest'].replace('pair that came', 'tensions that came'),

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..estimation.arm_settings import ArmSettings
-from ..files.arm_file import load_arm
+from ..files.arm_file import load_arm, load_arm_uncertainties
 from ..files.arm_parameters import ARM_ESTIMATIONS, ARM_TENSION_SOURCES
 from ..files.arm_settings import arm_settings_from, check_cables, joint_names
 from ..files.known_parameters import check_parameters_of_ros
@@ -18,6 +19,7 @@ from ..files.parameter_form import ParameterFileError
 from ..files.parameter_kinds import SettingError
 from ..physics import ArmError, Load
 from ..physics.deviations import TENSION_STDDEV
+from ..physics.load import push_along
 from ..recordings.arm_recording import ArmRecording
 from ..recordings.hints import arm_hints
 from ..recordings.reading.arm_bag import DEFAULT_MEASURED
@@ -26,9 +28,11 @@ from ..recordings.reading.topics import DEFAULT_TENSIONS, BagTopics
 from ..recordings.reading.units import of_arm as quantities_of
 from ..recordings.replay.arm_estimates import replay_arm
 from ..recordings.replay.arm_result import ArmReplay
+from ..recordings.replay.arm_tip_forces import arm_tip_forces
+from ..recordings.replay.tip_forces import TipForces
 from ..recordings.scaling import of_arm
 from .arm_options import add_arm_options, bend_angles_from, load_from
-from .options import UsageError, add_tension_stddev_option
+from .options import UsageError, add_bend_angle_stddev_option, add_tension_stddev_option
 from .progress import with_progress
 from .recording_options import (
     DEFAULTS,
@@ -38,6 +42,13 @@ from .recording_options import (
     names_of,
     table_from,
 )
+from .tip_force_options import add_direction_option, add_level_option
+
+OF_ARM = (
+    'on the end of the last unit, fixed in the frame of the base: X towards cables s, Z along the '
+    'first unit at zero bend'
+)
+"""Where a force at the tip is looked for"""
 
 ARM_NODE = '/arm_estimator'
 
@@ -47,11 +58,20 @@ class FollowedArm(NamedTuple):
 
     settings: ArmSettings
     replay: ArmReplay
+    tips: TipForces | None = None
+    """What pushes at the tip, if it was asked for"""
 
     @property
     def hints(self) -> list[str]:
         """What looks wrong with the recording."""
         return arm_hints(self.replay.recording, self.settings)
+
+
+def add_arm_tip_force_options(parser: argparse.ArgumentParser) -> None:
+    """Add along which line a force at the tip is looked for, if it is, and how sure all is."""
+    group = add_direction_option(parser, OF_ARM, required=False)
+    add_level_option(group)
+    add_bend_angle_stddev_option(group, file='parameter file')
 
 
 def add_arm_recording_options(parser: argparse.ArgumentParser) -> None:
@@ -118,8 +138,14 @@ def _add_bag_options(parser: argparse.ArgumentParser) -> None:
     add_common_bag_options(bag, 'parameter file')
 
 
-def followed_arm(options: argparse.Namespace) -> FollowedArm:
-    """Read arm, parameters and recording as the options say, and follow the one through it."""
+def followed_arm(options: argparse.Namespace, most_tips: int | None = None) -> FollowedArm:
+    """Read arm, parameters and recording as the options say, and follow the one through it.
+
+    Parameters
+    ----------
+    most_tips : int, optional
+        Samples that are asked what pushes at the tip, if that is looked for; by default all.
+    """
     settings, given = _settings_from(options)
     recording = _recording_from(options, settings, given)
     estimation = options.estimation or given.get('estimation') or ARM_ESTIMATIONS[0]
@@ -130,7 +156,19 @@ def followed_arm(options: argparse.Namespace) -> FollowedArm:
         )
     load = _load_from(options, settings, recording)
     replayed = replay_arm(settings, recording, estimation, load=load, progress=with_progress)
-    return FollowedArm(settings, replayed)
+    if getattr(options, 'direction', None) is None:
+        return FollowedArm(settings, replayed)
+    x, z, _, _ = push_along(options.direction, settings.arm.units[-1].length)
+    settings = dataclasses.replace(
+        settings, tip_direction=(x, 0.0, z), tip_force_level=options.level
+    )
+    if options.bend_angle_stddev_deg is not None:
+        stddev = math.radians(options.bend_angle_stddev_deg)
+        settings = dataclasses.replace(settings, measured_bend_angle_stddev=stddev)
+    tips = arm_tip_forces(
+        *(settings, recording, estimation), load=load, most=most_tips, progress=with_progress
+    )
+    return FollowedArm(settings, replayed, tips)
 
 
 def _settings_from(options: argparse.Namespace) -> tuple[ArmSettings, Mapping[str, Any]]:
@@ -146,7 +184,8 @@ def _settings_from(options: argparse.Namespace) -> tuple[ArmSettings, Mapping[st
             check_cables(arm, given)
         named = options.joint_names or given.get('joint_names') or ()
         names = joint_names(arm, named, given.get('arm_name') or 'arm')
-        settings = arm_settings_from(arm, given, names)
+        uncertainties = load_arm_uncertainties(options.arm)
+        settings = arm_settings_from(arm, given, names, uncertainties)
     except (ParameterFileError, SettingError) as error:
         raise ArmError(f'{path}: {error}') from None
     stddev = options.tension_stddev or (

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from ..files.output_file import OutputError
 from ..recordings.replay.table_output import write_table
-from .arm_recording import add_arm_recording_options, followed_arm
-from .arm_replay_text import arm_facts, joint_table
+from .arm_recording import add_arm_recording_options, add_arm_tip_force_options, followed_arm
+from .arm_replay_text import arm_facts, arm_tip_force_facts, joint_table
 from .options import say_written
 from .progress import with_progress
 from .recording_options import report_damage
@@ -21,6 +21,7 @@ ENDINGS = ('.csv', '.parquet')
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the verb takes."""
     add_arm_recording_options(parser)
+    add_arm_tip_force_options(parser)
     parser.add_argument(
         '--output',
         type=Path,
@@ -41,8 +42,9 @@ def run(options: argparse.Namespace) -> int:
     followed = followed_arm(options)
     replayed = followed.replay
     if path is not None:
-        write_table(path, replayed.columns(), with_progress)
-    print(fact_lines(arm_facts(replayed, followed.hints)))
+        columns = replayed.columns() | ({} if followed.tips is None else followed.tips.columns())
+        write_table(path, columns, with_progress)
+    print(fact_lines([*arm_facts(replayed, followed.hints), *arm_tip_force_facts(followed)]))
     print('\n' + markdown_table(*joint_table(replayed)))
     if path is not None:
         say_written(path, options)

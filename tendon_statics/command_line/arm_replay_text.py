@@ -13,7 +13,9 @@ from ..recordings.replay.arm_result import ArmReplay
 from ..recordings.replay.result import Replay
 from ..recordings.replay.summary import summary_of
 from ..recordings.session import Floats
+from .arm_recording import FollowedArm
 from .load_text import load_text
+from .recorded_tip_force import tip_force_facts
 from .replay_text import invalid_text, recording_facts
 from .tables import Facts
 
@@ -63,6 +65,28 @@ def _tip_facts(replay: ArmReplay) -> Facts:
     last = deviations[np.isfinite(deviations)]
     if len(last):
         facts.append(('tip deviation', f'in x at most {1e3 * float(last.max()):.3g} mm'))
+    return facts
+
+
+def arm_tip_force_facts(followed: FollowedArm) -> Facts:
+    """Say what the recording tells of a force at the tip, if it was asked for."""
+    if followed.tips is None:
+        return []
+    recording = followed.replay.recording
+    missing = [
+        name
+        for joint, name in enumerate(followed.settings.joint_names, start=1)
+        if joint not in recording.bend_angles
+    ]
+    facts = [*tip_force_facts(followed.tips)]
+    if missing:
+        facts.append(
+            (
+                'not measured',
+                f'the angle of {", ".join(missing)}: the estimated one takes the force at the tip '
+                'for known',
+            )
+        )
     return facts
 
 

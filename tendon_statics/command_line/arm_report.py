@@ -10,8 +10,14 @@ from ..files.arm_file import design_files_of
 from ..files.output_file import OutputError
 from ..physics import Arm
 from ..physics.arm import Cable
-from .arm_recording import FollowedArm, add_arm_recording_options, followed_arm
-from .arm_replay_text import arm_facts, joint_table
+from . import figure_tip_force
+from .arm_recording import (
+    FollowedArm,
+    add_arm_recording_options,
+    add_arm_tip_force_options,
+    followed_arm,
+)
+from .arm_replay_text import arm_facts, arm_tip_force_facts, joint_table
 from .figure_arm import SIZE, TIP_SIZE, draw_arm, draw_tip
 from .figures import svg_of
 from .options import UsageError, say_written
@@ -30,6 +36,7 @@ PARAMETERS = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the verb takes."""
     add_arm_recording_options(parser)
+    add_arm_tip_force_options(parser)
     parser.add_argument(
         '--output', type=Path, required=True, metavar='FILE.html', help='the report'
     )
@@ -40,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
     path: Path = options.output
     if path.suffix != '.html':
         raise OutputError(f'{path}: a report is written to a file ending in .html')
-    followed = followed_arm(options)
+    followed = followed_arm(options, figure_tip_force.MOST)
     recording = followed.replay.recording
     parts = []
     if recording.damage:
@@ -50,6 +57,7 @@ def run(options: argparse.Namespace) -> int:
     parts += [
         f'<h2>Recording, with {Path(options.arm).name}</h2>',
         *_replay_part(followed),
+        *_tip_force_part(followed),
         '<h2>Arm</h2>',
         *_arm_part(followed.settings.arm),
         '<h2>How to make it again</h2>',
@@ -72,6 +80,23 @@ def _replay_part(followed: FollowedArm) -> Iterator[str]:
         yield warning(str(error))
         return
     yield svg_of(lambda drawing: draw_tip(drawing, replayed), TIP_SIZE)
+
+
+def _tip_force_part(followed: FollowedArm) -> list[str]:
+    """What the recording tells of a force at the tip, if it is asked for."""
+    tips = followed.tips
+    if tips is None:
+        return []
+    return [
+        '<h2>Force at the tip</h2>',
+        fact_table(arm_tip_force_facts(followed)),
+        svg_of(
+            lambda drawing: figure_tip_force.draw_tip_forces(
+                drawing, followed.replay.recording, tips
+            ),
+            figure_tip_force.SIZE,
+        ),
+    ]
 
 
 def _arm_part(arm: Arm) -> list[str]:

@@ -7,6 +7,7 @@ import math
 
 from ..physics import ArmTipForce, arm_tip_force
 from .arm_options import add_arm_options, add_tensions_option, arm_from, tensions_from
+from .arm_recording import OF_ARM
 from .options import (
     add_bend_angle_stddev_option,
     add_format_option,
@@ -22,12 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the verb takes."""
     add_arm_options(parser)
     add_tensions_option(parser, '--tensions', 'the tensions at the base')
-    group = add_direction_option(
-        parser,
-        'on the end of the last unit, fixed in the frame of the base: X towards cables s, Z along '
-        'the first unit at zero bend',
-        required=True,
-    )
+    group = add_direction_option(parser, OF_ARM, required=True)
     group.add_argument(
         '--at-stop',
         type=int,

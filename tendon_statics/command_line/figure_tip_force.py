@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..recordings.recording import Recording
 from ..recordings.replay.tip_forces import TipForces
+from ..recordings.session import Session
 from .figures import BLUE, GREY, ORANGE, SKY, VERMILION
 from .options import (
     add_bend_angle_stddev_option,
@@ -52,7 +52,7 @@ def draw(drawing: Figure, options: argparse.Namespace) -> int:
     return report_damage(recording)
 
 
-def draw_tip_forces(drawing: Figure, recording: Recording, found: TipForces) -> None:
+def draw_tip_forces(drawing: Figure, recording: Session, found: TipForces) -> None:
     """Draw the interval, what was measured, and the probability of a free tip over time."""
     times, label = recording.time, 'time [s]'
     if times is None or recording.disorder:

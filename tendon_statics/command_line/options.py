@@ -108,11 +108,13 @@ def tension_stddev_from(options: argparse.Namespace, unit: Unit) -> float:
 
 
 def add_bend_angle_stddev_option(
-    parser: argparse.ArgumentParser, default: float | None = None
+    parser: argparse._ActionsContainer,
+    default: float | None = None,
+    file: str = 'design file',
 ) -> None:
-    """Add ``--bend-angle-stddev-deg DEG``; without a default that is the design file's."""
+    """Add ``--bend-angle-stddev-deg DEG``; without a default that is what a file says."""
     standard = f'{math.degrees(BEND_ANGLE_STDDEV):g}'
-    of_file = f'measured_bend_angle_stddev of the design file, or {standard}'
+    of_file = f'measured_bend_angle_stddev of the {file}, or {standard}'
     parser.add_argument(
         '--bend-angle-stddev-deg',
         type=_deviation_or_0,

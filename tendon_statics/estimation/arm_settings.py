@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from functools import cached_property
 
+from ..physics import DesignUncertainty
 from ..physics.arm import Arm
 from ..tensions.cable_scale import CableScale
 from .measuring import Measuring
@@ -23,12 +24,18 @@ class ArmSettings(Measuring):
         Of each cable, in the arm's order; empty: all read in N.
     initial_bend_angles : tuple of float
         In rad, from the base on; empty: the arm is straight.
+    design_uncertainties : tuple of DesignUncertainty or None
+        How well each unit's design is known, from the base on; None: exactly. Only what is told of
+        a force at the tip follows them.
     """
 
     arm: Arm
     joint_names: tuple[str, ...]
     cables: tuple[CableScale, ...] = dataclasses.field(default=(), kw_only=True)
     initial_bend_angles: tuple[float, ...] = dataclasses.field(default=(), kw_only=True)
+    design_uncertainties: tuple[DesignUncertainty | None, ...] | None = dataclasses.field(
+        default=None, kw_only=True
+    )
 
     @cached_property
     def scales(self) -> tuple[CableScale, ...]:

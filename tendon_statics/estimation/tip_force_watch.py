@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from collections import deque
 from typing import Any, NamedTuple
 
 from ..physics import (
@@ -15,28 +13,23 @@ from ..physics import (
     tip_force_of_state,
 )
 from ..physics.admissible import check_bend_angle
+from ..physics.arm import ArmTipForce
 from ..physics.tip_force_state import StateUnderNoise, stddev_of_angle
+from .measured_angle import MeasuredAngle
 from .settings import Settings
-
-MOTION_TIME = 0.5
-"""s over which the measured angle is looked at for motion: both its halves have to see it, which
-sorts out a jump, in which friction does not balance what drives the unit"""
-
-MOTION_DEVIATIONS = 3.0 * math.sqrt(2.0)
-"""Deviations of the angle by which two of it differ where the unit moves: noise alone does so to
-one side once in 700, and seldom in both halves"""
 
 
 class Pushed(NamedTuple):
     """What is known of the tip force, and with which angle."""
 
-    found: TipForce
+    found: TipForce | ArmTipForce
     bend_angle: float
-    """rad"""
+    """rad; NaN of an arm, which has several"""
     bend_angle_stddev: float
-    """rad"""
+    """rad, likewise"""
     is_measured: bool
-    """Whether the angle was measured; an estimated one takes the tip force for known"""
+    """Whether the angle, or each of them, was measured; an estimated one takes the tip force for
+    known"""
 
 
 class TipForceWatch:
@@ -48,7 +41,7 @@ class TipForceWatch:
     """
 
     def __init__(self) -> None:
-        self._angles: deque[tuple[float, float]] = deque()
+        self._angle = MeasuredAngle()
 
     def note_angle(self, bend_angle: float, now: float, settings: Settings) -> None:
         """Take a measured angle in rad.
@@ -58,29 +51,15 @@ class TipForceWatch:
         BendAngleError
             If it is not a number or lies beyond the stop.
         """
-        angle = check_bend_angle(settings.design, bend_angle)
-        angles = self._angles
-        angles.append((now, angle))
-        while len(angles) > 2 and angles[1][0] <= now - MOTION_TIME:
-            angles.popleft()
+        self._angle.note(check_bend_angle(settings.design, bend_angle), now)
 
     def forget(self) -> None:
         """Forget what was measured."""
-        self._angles.clear()
+        self._angle.forget()
 
     def motion(self, now: float, settings: Settings) -> str:
         """Return the cable towards which the measured angle moves, empty if it does not."""
-        angles = self._angles
-        if len(angles) < 3 or angles[0][0] < now - settings.input_timeout:
-            return ''
-        (_, first), (newest_at, last) = angles[0], angles[-1]
-        halfway = newest_at - 0.5 * MOTION_TIME
-        middle = next((angle for at, angle in reversed(angles) if at <= halfway), first)
-        least = MOTION_DEVIATIONS * settings.measured_bend_angle_stddev
-        steps = middle - first, last - middle
-        if min(steps) > least:
-            return 's'
-        return 'l' if max(steps) < -least else ''
+        return self._angle.motion(now, settings.measured_bend_angle_stddev, settings.input_timeout)
 
     def ask(
         self, state: Equilibrium | StateUnderNoise, settings: Settings, now: float
@@ -124,8 +103,7 @@ class TipForceWatch:
 
     def _measured(self, now: float, settings: Settings) -> float | None:
         """Return the newest measured angle in rad, unless it is too old."""
-        if not self._angles:
+        angle = self._angle.newest(now, settings.input_timeout)
+        if angle is None or abs(angle) > settings.design.max_bend_angle:  # which may have changed
             return None
-        at, angle = self._angles[-1]
-        within = abs(angle) <= settings.design.max_bend_angle  # whose stop may have changed
-        return angle if now - at <= settings.input_timeout and within else None
+        return angle

@@ -9,8 +9,9 @@ from typing import Any, TypeVar
 
 from ..physics.arm import Arm, ArmUnit, Cable
 from ..physics.design import JointDesign
+from ..physics.design_uncertainty import DesignUncertainty
 from ..physics.errors import ArmError, DesignError
-from .design_file import load_design
+from .design_file import load_design, load_design_uncertainty
 from .yaml_file import YamlFileError, read_yaml
 
 Part = TypeVar('Part')
@@ -50,6 +51,29 @@ def load_arm(path: str | Path) -> Arm:
         return Arm(tuple(units), tuple(cables), content.get('cable_friction_coefficient', 0.0))
     except (ArmError, DesignError, YamlFileError) as error:
         raise ArmError(f'{path}: {error}', key=getattr(error, 'key', '')) from None
+
+
+def load_arm_uncertainties(path: str | Path) -> tuple[DesignUncertainty | None, ...]:
+    """Read how well each unit's design is known, from the base on, from the files of an arm.
+
+    A file of a design says it as `load_design_uncertainty` takes it; None of one that does not,
+    and of a design that stands in the arm's own file.
+
+    Raises
+    ------
+    ArmError
+        If a file cannot be read, or what it says is no covariance of design parameters.
+    """
+    path = Path(path)
+    try:
+        units = read_yaml(path)['units']  # type: ignore[index]
+        known = {name: load_design_uncertainty(name) for name in design_files_of(path)}
+    except (DesignError, YamlFileError) as error:
+        raise ArmError(f'{path}: {error}', key=getattr(error, 'key', '')) from None
+    return tuple(
+        known[path.parent / unit['design_file']] if 'design_file' in unit else None
+        for unit in units
+    )
 
 
 def is_arm_file(path: str | Path) -> bool:

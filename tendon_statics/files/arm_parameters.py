@@ -141,8 +141,9 @@ ARM_WIRING: tuple[Parameter, ...] = (
     ),
     _said(
         TIP_FORCE,
-        'whether there is `~/tip_force`: what else pushes at the end of the last unit; angles are '
-        'taken from `measured_joint_states` where they come',
+        'whether there are `~/tip_force`, `~/tip_wrench` and `~/solve_tip_force`: what else '
+        'pushes at the end of the last unit; angles are taken from `measured_joint_states` where '
+        'they come',
     ),
     TextParameter(
         'frame_id',

@@ -8,10 +8,11 @@ from typing import Any
 
 from ..estimation.arm_follower import ARM_METHODS
 from ..estimation.arm_settings import ArmSettings
+from ..physics import DesignUncertainty
 from ..physics.arm import Arm
 from ..physics.arm.joints import check_bend_angles
 from ..physics.errors import ArmError, BendAngleError
-from .arm_file import load_arm
+from .arm_file import load_arm, load_arm_uncertainties
 from .arm_parameters import (
     ARM_ESTIMATIONS,
     ARM_NUMBERS,
@@ -38,6 +39,21 @@ def arm_in(arm_file: str) -> Arm:
     path = Path(arm_file) if arm_file else installed_config('arm.yaml')
     try:
         return load_arm(path)
+    except ArmError as error:
+        raise SettingError(f'arm_file: {error}') from None
+
+
+def uncertainties_in(arm_file: str) -> tuple[DesignUncertainty | None, ...]:
+    """Return how well the units of the arm that the parameter ``arm_file`` names are known.
+
+    Raises
+    ------
+    SettingError
+        If what a file says of that is no covariance of design parameters.
+    """
+    path = Path(arm_file) if arm_file else installed_config('arm.yaml')
+    try:
+        return load_arm_uncertainties(path)
     except ArmError as error:
         raise SettingError(f'arm_file: {error}') from None
 
@@ -94,7 +110,10 @@ def check_arm_parameters(arm: Arm, values: Mapping[str, Any]) -> None:
 
 
 def arm_settings_from(
-    arm: Arm, values: Mapping[str, Any], names: tuple[str, ...] = ()
+    arm: Arm,
+    values: Mapping[str, Any],
+    names: tuple[str, ...] = (),
+    design_uncertainties: tuple[DesignUncertainty | None, ...] | None = None,
 ) -> ArmSettings:
     """Make settings of the values of parameters by name; what is not given has its default.
 
@@ -104,6 +123,8 @@ def arm_settings_from(
     ----------
     names : tuple of str
         Of the joints, from the base on; empty: as by default.
+    design_uncertainties : tuple of DesignUncertainty or None
+        As of `ArmSettings`.
 
     Raises
     ------
@@ -124,6 +145,7 @@ def arm_settings_from(
         names or joint_names(arm, (), 'arm'),
         cables=tuple(cable_scale(cable_prefix(name), number) for name in arm.cable_names),
         initial_bend_angles=start,
+        design_uncertainties=design_uncertainties,
         **measuring_in(values, ARM_NUMBERS, ARM_VECTORS, ArmSettings),
     )
     estimation = values.get('estimation', ARM_ESTIMATIONS[0])

@@ -37,7 +37,7 @@ class ArmEstimator(ManagedEstimator[ArmSettings, ArmEstimate]):
 
     def _declare(self) -> None:
         self._wiring, self.arm = declare_arm_wiring(self)
-        self.table = arm_table(self.arm, self._wiring.joint_names)
+        self.table = arm_table(self.arm, self._wiring)
         # rclpy has no public view of overrides that nobody declares, as a misspelt one.
         given = {name: of.value for name, of in self._parameter_overrides.items()}
         check_cables(self.arm, given)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..estimation.arm_estimate import ArmEstimate
 from ..physics import ArmError, BendAngleError, LoadError, TensionError
-from ..physics.arm import ArmTracker
+from ..physics.arm import Arm, ArmTracker
 from .outputs import arm_messages, messages
 from .services import offer, say_interfaces_are_missing
 
@@ -41,20 +41,9 @@ def _solve(
     response: arm_messages.SolveArm.Response,
 ) -> arm_messages.SolveArm.Response:
     arm = node.arm
-    names = list(request.cable_names) or list(arm.cable_names)
-    if len(names) != len(request.tensions):
-        return arm_messages.refuse_solve_arm(
-            response,
-            f'{len(request.tensions)} tensions came for {len(names)} cables, '
-            f'{", ".join(names)}: one is needed for each',
-        )
-    if len(set(names)) != len(names):
-        return arm_messages.refuse_solve_arm(
-            response, f'cable_names is {names!r}: each cable stands in it once'
-        )
     try:
         known = messages.asked_load(request, node.known_load())
-        tensions = dict(zip(names, map(float, request.tensions), strict=True))
+        tensions = asked_tensions(arm, request)
         if request.bend_angles:
             state = ArmTracker(arm, request.bend_angles).update(tensions, known.load)
             estimate = ArmEstimate(state, known, node.core.settings)
@@ -63,3 +52,22 @@ def _solve(
     except (ArmError, BendAngleError, LoadError, TensionError) as error:
         return arm_messages.refuse_solve_arm(response, str(error))
     return arm_messages.fill_solve_arm(response, estimate)
+
+
+def asked_tensions(arm: Arm, request: Any) -> dict[str, float]:
+    """Return the tensions of a request in N by the cable.
+
+    Raises
+    ------
+    TensionError
+        If there is not one for each cable that is named, or one is named twice.
+    """
+    names = list(request.cable_names) or list(arm.cable_names)
+    if len(names) != len(request.tensions):
+        raise TensionError(
+            f'{len(request.tensions)} tensions came for {len(names)} cables, '
+            f'{", ".join(names)}: one is needed for each'
+        )
+    if len(set(names)) != len(names):
+        raise TensionError(f'cable_names is {names!r}: each cable stands in it once')
+    return dict(zip(names, map(float, request.tensions), strict=True))

@@ -1,119 +1,79 @@
-"""What pushes at the end of an arm, as its node publishes it, if it is asked to."""
+"""The force on the end of an arm, on its node."""
 
 from __future__ import annotations
 
-import math
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from builtin_interfaces.msg import Time
-from std_msgs.msg import Header
-
 from ..estimation.arm_estimate import ArmEstimate
-from ..physics import TendonStaticsError
+from ..estimation.arm_tip_force_watch import ArmTipForceWatch
+from ..estimation.tip_force_watch import Pushed
+from ..physics import ArmError
 from ..physics.arm import ArmTipForce, arm_tip_force
-from ..physics.load import push_along
-from ..physics.tip_force import may_be_at_stop
-from .outputs.publishers import output_publisher
-from .tip_force import PERIOD, TipForceMessage
+from .arm_services import asked_tensions
+from .tip_force import Line, TipForces
 
 if TYPE_CHECKING:
     from .arm_estimator import ArmEstimator
 
-SHARE = 0.2
-"""Of the time that it may take at most: of many joints it is slow, and messages must not wait"""
+# The interfaces may be missing, or older than the node.
+try:
+    from tendon_statics_interfaces.srv import SolveArmTipForce
+except ImportError:
+    SolveArmTipForce = None
 
 
-class ArmTipForces:
-    """Publishes ``~/tip_force`` of an arm: the forces along a line that all joints explain.
+class ArmTipForces(TipForces):
+    """The forces along a line that all joints explain."""
 
-    A joint whose angle was measured lately is there; of the others the estimate has to do, with
-    its deviation. The largest deviation of an angle is taken for all.
-    """
+    service = SolveArmTipForce
+    _node: ArmEstimator
 
     def __init__(self, node: ArmEstimator) -> None:
-        self._node = node
-        self._measured: dict[int, tuple[float, float]] = {}
-        """Joint, counted from 1 → when, in s, and the angle in rad"""
-        self._next = 0.0
-        self._publisher = None
-        if TipForceMessage is None:
-            node.get_logger().warning(
-                'No ~/tip_force, since tendon_statics_interfaces is not there or older than this; '
-                'build the folder interfaces/ with it: colcon build --base-paths . interfaces'
-            )
-        else:
-            self._publisher = output_publisher(node, TipForceMessage, '~/tip_force')
+        super().__init__(node)
+        self._watch = ArmTipForceWatch(len(node.arm.units))
 
     def note_angles(self, bend_angles: Mapping[int, float]) -> None:
         """Take measured angles in rad by the joint; those beyond a stop are told by the arm."""
-        now, stops = time.monotonic(), self._node.arm.stops
-        for joint, angle in bend_angles.items():
-            if abs(angle) <= stops[joint - 1]:
-                self._measured[joint] = now, angle
+        self._watch.note_angles(bend_angles, time.monotonic(), self._node.core.settings)
 
     def forget(self) -> None:
         """Forget what was measured."""
-        self._measured.clear()
+        self._watch.forget()
 
-    def publish(self, estimate: ArmEstimate, stamp: Callable[[], Time]) -> None:
-        """Publish what an estimate tells, if it does, somebody listens, and it is time again."""
-        now = time.monotonic()
-        if (
-            self._publisher is None
-            or estimate.bend_angles is None
-            or now < self._next
-            or not self._publisher.handle.get_subscription_count() > 0
-        ):
-            return
-        settings = self._node.core.settings
-        oldest = now - settings.input_timeout
-        measured = {joint: angle for joint, (at, angle) in self._measured.items() if at >= oldest}
-        angles, stddevs = list(estimate.bend_angles), list(estimate.bend_angle_stddevs)
-        for joint, angle in measured.items():
-            angles[joint - 1] = angle
-            stddevs[joint - 1] = settings.measured_bend_angle_stddev
-        known = [stddev for stddev in stddevs if stddev is not None]
-        if len(known) < len(stddevs):  # Of a joint it is not known where it is, or how well.
-            return
-        at_stop = [
-            joint
-            for joint, (design, angle, stddev) in enumerate(
-                zip(estimate.arm.designs, angles, known, strict=True), start=1
-            )
-            if angle and may_be_at_stop(design, angle, stddev)
-        ]
-        try:
-            found = arm_tip_force(
-                estimate.arm,
-                estimate.state.cable_tensions,
-                bend_angles=angles,
-                direction=settings.tip_direction,
-                load=estimate.known.load,
-                at_stop=at_stop,
-                tension_stddev=settings.tension_stddev,
-                bend_angle_stddev=max(known),
-                level=settings.tip_force_level,
-            )
-        except TendonStaticsError:  # tensions that let no joint be seated
-            return
-        header = Header(stamp=stamp(), frame_id=self._node.wiring.frame_id)
-        message = _message(header, found, estimate)
-        message.bend_angle_measured = len(measured) == len(angles)
-        self._publisher.publish(message)
-        done = time.monotonic()
-        self._next = done + max(PERIOD, (done - now) / SHARE)
+    @property
+    def _line(self) -> Line:
+        return self._node.core.settings.tip_direction, self._node.arm.units[-1].length
 
+    def _ask(self, estimate: ArmEstimate, now: float) -> Pushed | None:
+        return self._watch.ask(estimate.state, estimate.settings, now)
 
-def _message(header: Header, found: ArmTipForce, estimate: ArmEstimate) -> Any:
-    settings, length = estimate.settings, estimate.arm.units[-1].length
-    message = TipForceMessage(header=header, tip_distance=length)
-    message.intervals = [end for interval in found.intervals for end in interval]
-    message.direction_x, message.direction_z = push_along(settings.tip_direction, length)[:2]
-    message.level, message.probability_free = found.level, found.probability_free
-    # An arm has several angles.
-    message.bend_angle = message.bend_angle_stddev = math.nan
-    message.force = message.force_stddev = math.nan
-    message.load_assured = estimate.known.is_assured
-    return message
+    def _answer(self, request: Any) -> ArmTipForce:
+        settings, arm = self._node.core.settings, self._node.arm
+        count = len(arm.units)
+        for name in ('slipping', 'at_stop'):
+            given = len(getattr(request, name))
+            if given not in (0, count):
+                raise ArmError(
+                    f'{name} is of {given} joints, but the arm has {count}: one is needed for '
+                    'each, or none'
+                )
+        direction = tuple(map(float, request.direction))
+        return arm_tip_force(
+            arm,
+            asked_tensions(arm, request),
+            bend_angles=list(request.bend_angles),
+            direction=direction if any(direction) else settings.tip_direction,
+            load=self._node.known_load().load,
+            at_stop=[joint for joint, leans in enumerate(request.at_stop, start=1) if leans],
+            slipping={joint: to for joint, to in enumerate(request.slipping, start=1) if to},
+            tension_stddev=settings.tension_stddev,
+            bend_angle_stddev=settings.measured_bend_angle_stddev,
+            design_covariance=settings.design_uncertainties,
+            level=settings.tip_force_level,
+        )
+
+    def _filled(self, response: Any, found: ArmTipForce) -> Any:
+        response.bounding_joints = [joint or 0 for ends in found.bounding_joints for joint in ends]
+        return super()._filled(response, found)

@@ -23,8 +23,8 @@ from .outputs.finding import unit_topics
 from .outputs.markers import unit_markers
 from .outputs.publishers import Outputs, output_publisher
 from .parameters.estimator import Wiring, declare_settings, declare_wiring, unit_table
-from .tip_force import TipForces
 from .unit_services import offer_unit_services
+from .unit_tip_force import UnitTipForces
 
 
 class Estimator(ManagedEstimator[Settings, Estimate]):
@@ -33,7 +33,7 @@ class Estimator(ManagedEstimator[Settings, Estimate]):
     core: UnitEstimator
 
     def __init__(self) -> None:
-        self._tip_forces: TipForces | None = None
+        self._tip_forces: UnitTipForces | None = None
         self._committed: CommittedOutput | None = None
         super().__init__('estimator')
 
@@ -60,7 +60,7 @@ class Estimator(ManagedEstimator[Settings, Estimate]):
             publisher = output_publisher(self, messages.Estimate, '~/committed_estimate')
             self._committed = CommittedOutput(publisher, wiring.frame_id)
         if wiring.tip_force:
-            self._tip_forces = TipForces(self)
+            self._tip_forces = UnitTipForces(self)
         if METHODS[wiring.estimation].remembers or wiring.tip_force:
             self._inputs.add('measured_bend_angle', Float64, self._on_measured_bend_angle)
         offer_unit_services(self)

@@ -1,51 +1,61 @@
-"""The force at the tip: what the estimator publishes and answers of it, if it is asked to."""
+"""The force at the tip: what an estimator publishes and answers of it, if it is asked to.
+
+What it is of a unit and of an arm is in `unit_tip_force` and `arm_tip_force`.
+"""
 
 from __future__ import annotations
 
 import math
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import WrenchStamped
 from rclpy.publisher import Publisher
 from std_msgs.msg import Header
 
-from ..estimation.estimate import Estimate
-from ..estimation.tip_force_watch import Pushed, TipForceWatch
-from ..physics import TendonStaticsError, TipForce, tip_force
+from ..estimation.estimate import AnyEstimate
+from ..estimation.tip_force_watch import Pushed
+from ..physics import TendonStaticsError, TipForce
+from ..physics.arm import ArmTipForce
 from ..physics.load import push_along
+from .managed_estimator import ManagedEstimator
 from .outputs import messages
 from .outputs.publishers import output_publisher
 from .services import offer
-
-if TYPE_CHECKING:
-    from .estimator import Estimator
 
 __all__ = ['PERIOD', 'TipForceMessage', 'TipForces', 'tip_force_message', 'tip_wrench_message']
 
 PERIOD = 0.02
 """Least time in s between two of them, each of which takes some 2 ms"""
 
+SHARE = 0.2
+"""Of the time that it may take at most: of an arm it is slow, and messages must not wait"""
+
 # The interfaces may be missing, or older than the node.
 try:
     from tendon_statics_interfaces.msg import TipForce as TipForceMessage
-    from tendon_statics_interfaces.srv import SolveTipForce
 except ImportError:
-    TipForceMessage = SolveTipForce = None
+    TipForceMessage = None
+
+Line = tuple[tuple[float, float, float], float]
+"""Direction of the force that is looked for, and where it acts along the unit's axis, in m"""
 
 
-class TipForces:
+class TipForces(ABC):
     """Publishes ``~/tip_force`` and ``~/tip_wrench``, and answers ``~/solve_tip_force``."""
 
-    def __init__(self, node: Estimator) -> None:
+    service: type | None
+    """Of ``~/solve_tip_force``; None if the interfaces do not have it"""
+
+    def __init__(self, node: ManagedEstimator[Any, Any]) -> None:
         self._node = node
-        self._watch = TipForceWatch()
         self._next = 0.0
         self._wrench = output_publisher(node, WrenchStamped, '~/tip_wrench')
         self._forces: Publisher | None = None
-        if TipForceMessage is None:
+        if TipForceMessage is None or self.service is None:
             node.get_logger().warning(
                 'No ~/tip_force and ~/solve_tip_force, since tendon_statics_interfaces is not '
                 'there or older than this; build the folder interfaces/ with it: '
@@ -53,23 +63,32 @@ class TipForces:
             )
         else:
             self._forces = output_publisher(node, TipForceMessage, '~/tip_force')
-            offer(node, SolveTipForce, 'solve_tip_force', self._solve, _refuse)
+            offer(node, self.service, 'solve_tip_force', self._solve, _refuse)
 
-    def note_angle(self, bend_angle: float) -> None:
-        """Take a measured angle in rad.
+    @abstractmethod
+    def forget(self) -> None:
+        """Forget what was measured."""
+
+    @property
+    @abstractmethod
+    def _line(self) -> Line:
+        """The line of the node's settings."""
+
+    @abstractmethod
+    def _ask(self, estimate: Any, now: float) -> Pushed | None:
+        """Return what an estimate tells; None if nothing."""
+
+    @abstractmethod
+    def _answer(self, request: Any) -> TipForce | ArmTipForce:
+        """Return what a request asks for.
 
         Raises
         ------
-        BendAngleError
-            If it is not a number or lies beyond the stop.
+        TendonStaticsError, ValueError
+            If that is not allowed.
         """
-        self._watch.note_angle(bend_angle, time.monotonic(), self._node.core.settings)
 
-    def forget(self) -> None:
-        """Forget what was measured."""
-        self._watch.forget()
-
-    def publish(self, estimate: Estimate, stamp: Callable[[], Time]) -> None:
+    def publish(self, estimate: AnyEstimate, stamp: Callable[[], Time]) -> None:
         """Publish what an estimate tells, if it does, somebody listens, and it is time again."""
         now = time.monotonic()
         listeners = [
@@ -79,58 +98,34 @@ class TipForces:
         ]
         if not listeners or now < self._next:
             return
-        settings = self._node.core.settings
-        pushed = self._watch.ask(estimate, settings, now)
+        pushed = self._ask(estimate, now)
+        done = time.monotonic()
+        self._next = done + max(PERIOD, (done - now) / SHARE)
         if pushed is None:
             return
-        self._next = now + PERIOD
         header = Header(stamp=stamp(), frame_id=self._node.wiring.frame_id)
-        direction = push_along(settings.tip_direction, settings.tip_distance)[:2]
+        direction, distance = self._line
+        along = push_along(direction, distance)[:2]
         if self._forces is not None:
+            is_assured = estimate.known.is_assured
             self._forces.publish(
-                tip_force_message(
-                    header,
-                    pushed,
-                    direction,
-                    settings.tip_distance,
-                    load_assured=estimate.known.is_assured,
-                )
+                tip_force_message(header, pushed, along, distance, load_assured=is_assured)
             )
-        wrench = tip_wrench_message(header, pushed, direction)
+        wrench = tip_wrench_message(header, pushed, along)
         if wrench is not None:
             self._wrench.publish(wrench)
 
     def _solve(self, request: Any, response: Any) -> Any:
-        settings, known = self._node.core.settings, self._node.known_load()
-        direction, distance = tuple(map(float, request.direction)), request.tip_distance
-        if not any(direction):
-            if distance:
-                return _refuse(
-                    response,
-                    f'tip_distance is {distance!r} m, but direction is 0, which asks for the line '
-                    'of the node: give the direction too',
-                )
-            direction, distance = settings.tip_direction, settings.tip_distance
         try:
-            found = tip_force(
-                settings.design,
-                request.tension_l,
-                request.tension_s,
-                bend_angle=request.bend_angle,
-                direction=direction,
-                distance=distance,
-                load=known.load,
-                tension_stddev=settings.tension_stddev,
-                bend_angle_stddev=settings.measured_bend_angle_stddev,
-                design_covariance=settings.design_uncertainty,
-                level=settings.tip_force_level,
-                slipping=request.slipping,
-                at_stop=request.at_stop,
-            )
+            found = self._answer(request)
         except (TendonStaticsError, ValueError) as error:
             return _refuse(response, str(error))
         response.success = True
-        response.load_assured = known.is_assured
+        response.load_assured = self._node.known_load().is_assured
+        return self._filled(response, found)
+
+    def _filled(self, response: Any, found: Any) -> Any:
+        """Return a response with what was found."""
         return _fill(response, found)
 
 
@@ -163,7 +158,7 @@ def tip_wrench_message(
     return message
 
 
-def _fill(message: Any, found: TipForce) -> Any:
+def _fill(message: Any, found: TipForce | ArmTipForce) -> Any:
     message.intervals = [end for interval in found.intervals for end in interval]
     message.level = found.level
     message.probability_free = found.probability_free

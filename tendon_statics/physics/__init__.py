@@ -48,6 +48,7 @@ if TYPE_CHECKING:
         arm_slip_order,
         arm_tensions_for,
         arm_tip_force,
+        arm_tip_force_of_state,
     )
     from .batch import EquilibriumBatch, solve_batch
     from .calibration import Calibration, LawComparison, calibrate, compare_laws
@@ -96,6 +97,7 @@ __all__ = [
     'arm_slip_order',
     'arm_tensions_for',
     'arm_tip_force',
+    'arm_tip_force_of_state',
     'calibrate',
     'compare_laws',
     'design_fields',

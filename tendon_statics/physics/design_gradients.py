@@ -27,6 +27,14 @@ STEP = 1e-5
 both are some 1e-10 of the derivative"""
 
 
+STENCILS = (
+    ((-1.0, -0.5), (1.0, 0.5)),
+    ((0.0, -1.5), (1.0, 2.0), (2.0, -0.5)),
+    ((0.0, 1.5), (-1.0, -2.0), (-2.0, 0.5)),
+)
+"""Places in steps and weights of differences: central, or one-sided at the end of a range"""
+
+
 class SlipAnswer(NamedTuple):
     """What is known of a unit at some angle, taken to be about to slip there."""
 
@@ -117,6 +125,31 @@ def excess_by_design(
     return [slope(name) for name in names]
 
 
+def neighbours(design: JointDesign, name: str, total: float) -> list[tuple[JointDesign, float]]:
+    """Return designs next to one by a parameter, and weights.
+
+    What they have, times the weights, sums up to its derivative by the parameter.
+
+    Parameters
+    ----------
+    name : str
+        Of `design_parameters`.
+    total : float
+        T in N.
+    """
+    (parameter,) = (one for one in design_parameters() if one.name == name)
+    value, step = getattr(design, name), STEP * _scale(parameter, design, total)
+    for stencil in STENCILS:
+        try:
+            return [
+                (dataclasses.replace(design, **{name: value + place * step}), weight / step)
+                for place, weight in stencil
+            ]
+        except DesignError:
+            continue
+    return [(design, math.nan)]
+
+
 def _tilted(load: Load, change: float) -> Load:
     """Tilt the base further towards cable s; the tip force stays as it is in the joint frame."""
     x, y, z = load.gravity_direction
@@ -144,16 +177,17 @@ def _scale(parameter: DesignParameter, design: JointDesign, total: float) -> flo
 
 
 def _slopes(answer: Callable[[float], SlipAnswer], step: float) -> SlipAnswer:
-    """Return the slopes of both numbers: central, or one-sided at the end of a range."""
-    for points in ((-step, step), (0.0, step, 2.0 * step), (0.0, -step, -2.0 * step)):
+    """Return the slopes of both numbers, by the first of `STENCILS` that is allowed."""
+    for stencil in STENCILS:
         try:
-            values = [answer(change) for change in points]
+            values = [answer(place * step) for place, _ in stencil]
         except (DesignError, TensionError):
             continue
-        width = points[1] - points[0]
-        if len(values) == 2:
-            return SlipAnswer(*((b - a) / width for a, b in zip(*values, strict=True)))
+        weights = [weight for _, weight in stencil]
         return SlipAnswer(
-            *((4.0 * b - 3.0 * a - c) / (2.0 * width) for a, b, c in zip(*values, strict=True))
+            *(
+                math.fsum(w * v for w, v in zip(weights, of, strict=True)) / step
+                for of in zip(*values, strict=True)
+            )
         )
     return SlipAnswer(math.nan, math.nan)

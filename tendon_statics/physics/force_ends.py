@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import Protocol
 
 from .admissible import Interval
-from .force_scores import NORMAL
+from .force_scores import NORMAL, Doubt
 from .pushed_unit import BOTH_SIDES
 
 STEP = 1e-6
@@ -27,22 +27,20 @@ TOLERANCE = 1e-7
 class Doubtful(Protocol):
     """How much speaks against a force; as `Doubt` says it."""
 
-    def bounds(self, force: float) -> tuple[float, float]:
-        """Return x and y of the doubt Φ(x) − Φ(y)."""
-
     def beyond(self, force: float, level: float) -> float:
         """Return by how much the doubt, as a score, is beyond that of a level."""
 
 
 def forces_within(
-    doubt: Doubtful, cuts: Sequence[float], scale: float, level: float
+    doubt: Doubtful, cuts: Sequence[tuple[float, Doubt]], scale: float, level: float
 ) -> list[Interval]:
     """Return the forces with a doubt up to a level.
 
     Parameters
     ----------
-    cuts : sequence of float
-        Ends of the exact set in N, near which the others are.
+    cuts : sequence of (float, Doubt)
+        Ends of the exact set in N, near which the others are, each with the doubt that grows
+        there.
     scale : float
         Of the forces, in N.
     """
@@ -52,15 +50,15 @@ def forces_within(
 
     deviations = NORMAL.inv_cdf(0.5 * (1.0 + level))
     places = {0.0}
-    for cut in cuts:
+    for cut, of_cut in cuts:
         places.add(cut)
         step = STEP * (scale + abs(cut))
-        rate = abs(doubt.bounds(cut + step)[0] - doubt.bounds(cut)[0]) / step
+        rate = abs(of_cut.bounds(cut + step)[0] - of_cut.bounds(cut)[0]) / step
         if 0.0 < rate < math.inf:
             reach = deviations / rate
             places |= {cut + share * reach for share in (-1.5, 1.5)}
-    middle = 0.5 * (min(cuts) + max(cuts)) if cuts else 0.0
-    spread = scale + (0.5 * (max(cuts) - min(cuts)) if cuts else 0.0)
+    low, high = min(places), max(places)
+    middle, spread = 0.5 * (low + high), scale + 0.5 * (high - low)
     places |= {middle + side * share * spread for side in BOTH_SIDES for share in PLACES}
     places |= {middle - FAR * spread, middle + FAR * spread}
     points = [(place, beyond(place)) for place in sorted(places)]

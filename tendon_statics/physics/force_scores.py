@@ -17,16 +17,16 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from statistics import NormalDist
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from .design import JointDesign
-from .design_gradients import excess_by_design
+from .design_gradients import neighbours
 from .design_uncertainty import DesignUncertainty
 from .gradients import slip_by_tensions
-from .load import Load
 from .pushed_unit import PushedUnit
+from .slip import Slip, SlipPoint
 from .tensions import Tensions
 
 STEP = 1e-6
@@ -61,65 +61,90 @@ class ForceScores:
     Parameters
     ----------
     unit : PushedUnit
-    load : Load
-        All that acts on it but the force; the weight follows an uncertain design.
+    with_design : callable
+        Returns the same unit with another design, whose weight and levers are that one's.
     """
 
-    def __init__(self, unit: PushedUnit, load: Load, noise: Noise) -> None:
-        self._unit, self._load, self._noise = unit, load, noise
+    def __init__(
+        self, unit: PushedUnit, noise: Noise, with_design: Callable[[JointDesign], PushedUnit]
+    ) -> None:
+        self._unit, self._noise = unit, noise
+        uncertainty = noise.design
+        self._by_design = {
+            name: [
+                (with_design(design), weight)
+                for design, weight in neighbours(unit.design, name, unit.total)
+            ]
+            for name in (uncertainty.parameters if uncertainty else ())
+        }
+        """Parameter of the design → units next to it by that, and weights"""
 
     def towards(self, force: float, side: float) -> float:
         """Return g / σ_g under a force in N, for slipping to a side, 1 or −1.
 
         Where the tensions do not seat the joint, at those closest to them that do.
         """
-        unit = self._seated(force)
-        slip, ahead = unit.slip(force).facing(side), side * unit.bend_angle
-        point = slip.at(ahead)
-        behind, before = slip_by_tensions(slip, point, unit.design.relative_lever)
-        variance = self._noise.tension_stddev**2 * (behind * behind + before * before)
-        variance += (self._noise.bend_angle_stddev * point.slope) ** 2
-        variance += self._of_design(lambda other: other.excess(force, side), unit)
+        short = self._short(force)
+        unit = _raised(self._unit, short)
+        slip = unit.slip(force, side)
+        point = slip.at(side * unit.bend_angle)
+        variance = self._of_measured(force, slip, point)
+        variance += self._of_design(lambda other: _raised(other, short).excess(force, side))
         return score(float(point.excess), variance)
 
     def lift(self, force: float) -> float:
         """Return by how many deviations the tensions fall short of seating the joint."""
-        unit, noise = self._unit, self._noise
+        variance = self._of_measured_lift(force)
+        variance += self._of_design(lambda other: other.lift(force))
+        return score(self._unit.lift(force), variance)
+
+    def _of_measured(self, _force: float, slip: Slip, point: SlipPoint) -> float:
+        """Return the variance that g has by what is measured."""
+        noise = self._noise
+        by_pair = slip_by_tensions(slip, point, self._unit.design.relative_lever)
+        variance: float = noise.tension_stddev**2 * (by_pair[0] ** 2 + by_pair[1] ** 2)
+        return variance + (noise.bend_angle_stddev * float(point.slope)) ** 2
+
+    def _of_measured_lift(self, force: float) -> float:
+        """Return the variance that the lift has by what is measured, in N²."""
+        noise = self._noise
         variance = 2.0 * noise.tension_stddev**2
-        if noise.bend_angle_stddev:
-            before, after = (
-                unit._replace(bend_angle=unit.bend_angle + step).lift(force)
-                for step in (-STEP, STEP)
-            )
-            variance += (noise.bend_angle_stddev * (after - before) / (2.0 * STEP)) ** 2
-        variance += self._of_design(lambda other: other.lift(force), unit)
-        return score(unit.lift(force), variance)
+        return variance + (noise.bend_angle_stddev * self._lift_by_angle(force)) ** 2
 
-    def _seated(self, force: float) -> PushedUnit:
-        """Return the unit, with both tensions raised by as much as seats it, if anything."""
+    def _lift_by_angle(self, force: float) -> float:
+        """Return the derivative of the lift by the angle in N/rad."""
+        if not self._noise.bend_angle_stddev:
+            return 0.0
         unit = self._unit
-        lift = unit.lift(force)
-        short = lift + SEATED * abs(lift + unit.total)
-        if short <= 0.0:
-            return unit
-        return unit._replace(tensions=Tensions(*(t + 0.5 * short for t in unit.tensions)))
+        before, after = (
+            unit._replace(bend_angle=unit.bend_angle + step).lift(force) for step in (-STEP, STEP)
+        )
+        return (after - before) / (2.0 * STEP)
 
-    def _of_design(self, quantity: Any, unit: PushedUnit) -> float:
-        """Return the variance that a quantity of a pushed unit has by the design's."""
+    def _of_design(self, quantity: Callable[[PushedUnit], float]) -> float:
+        """Return the variance that a quantity of the unit has by its design's."""
         uncertainty = self._noise.design
         if uncertainty is None:
             return 0.0
-
-        def of(design: JointDesign) -> float:
-            value: float = quantity(unit._replace(design=design, dead=self._load.on(design)))
-            return value
-
-        slopes = excess_by_design(of, unit.design, uncertainty.parameters, unit.total)
-        return math.fsum(
-            one * other * covariance
-            for one, row in zip(slopes, uncertainty.covariance, strict=True)
-            for other, covariance in zip(slopes, row, strict=True)
+        return uncertainty.variance(
+            {
+                name: math.fsum(weight * quantity(unit) for unit, weight in units)
+                for name, units in self._by_design.items()
+            }
         )
+
+    def _short(self, force: float) -> float:
+        """Return by how much in N the tensions have to be raised to seat the unit, if at all."""
+        lift = self._unit.lift(force)
+        return max(0.0, lift + SEATED * abs(lift + self._unit.total))
+
+
+def _raised(unit: PushedUnit, by: float) -> PushedUnit:
+    """Return a unit with both tensions together raised, in N."""
+    if not by:
+        return unit
+    left, right = unit.tensions
+    return unit._replace(tensions=Tensions(left + 0.5 * by, right + 0.5 * by))
 
 
 def score(value: float, variance: float) -> float:

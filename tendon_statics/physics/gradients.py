@@ -6,6 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 from .contact.law import NormalSlopes
+from .load import DeadLoad
 from .slip import Slip, SlipPoint
 
 
@@ -57,6 +58,28 @@ def slip_by_tensions(slip: Slip, point: SlipPoint, lever: float) -> ByCable:
     share = slip.share
     common = share * point.by_share - point.moment
     return (common - lever) / slip.total, (common + lever) / slip.total
+
+
+def slip_by_load(slip: Slip, point: SlipPoint, change: DeadLoad, radius: float) -> float:
+    """∂g/∂x in units of r T, for a dead load that a quantity x changes by `change` of each unit.
+
+    Parameters
+    ----------
+    change : DeadLoad
+        In the joint frame.
+    radius : float
+        r in m.
+    """
+    (cosine, sine), side = point.turn, slip.side
+    moment = (side * change.moment_x * cosine - change.moment_z * sine) / (radius * slip.total)
+    force_x, force_z = side * change.force_x, change.force_z
+    if not (force_x or force_z):
+        return float(moment)
+    axial, across = -force_x * sine - force_z * cosine, force_x * cosine - force_z * sine
+    size = slip.share * slip.total
+    by_share = (point.cosine * axial + point.sine * across) / slip.total
+    by_tilt = (point.cosine * across - point.sine * axial) / size if size else 0.0
+    return float(moment - point.by_share * by_share - point.by_tilt * by_tilt)
 
 
 def angle_by_tensions(slip: Slip, point: SlipPoint, lever: float) -> ByCable:

@@ -157,6 +157,17 @@ class DeadLoad(NamedTuple):
             return math.hypot(self.force_x, self.force_z)
         return abs(self.force_x + 1j * self.force_z)
 
+    def plus(self, other: DeadLoad, times: float = 1.0) -> DeadLoad:
+        """Return both together, the other so many times."""
+        force_x, force_z, moment_x, moment_z = self
+        x, z, of_x, of_z = other
+        return DeadLoad(
+            force_x + times * x,
+            force_z + times * z,
+            moment_x + times * of_x,
+            moment_z + times * of_z,
+        )
+
     def largest_pull(self, stop: float) -> float:
         """Largest −P_a in N, with which it pulls the unit off the ball, within ±`stop` in rad."""
         farthest = min(abs(math.atan2(self.force_x, -self.force_z)) + stop, math.pi)

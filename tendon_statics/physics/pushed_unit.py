@@ -51,16 +51,17 @@ class PushedUnit(NamedTuple):
 
     def loaded(self, force: float) -> DeadLoad:
         """Return the dead load with a force in N."""
-        return DeadLoad(*(of + force * by for of, by in zip(self.dead, self.push, strict=True)))
+        return self.dead.plus(self.push, force)
 
-    def slip(self, force: float) -> Slip:
-        """Return the slip function towards cable s under a force in N."""
-        dead = self.loaded(force)
-        return Slip(LoadedJoint.of(self.design, dead), self.total - dead.size, *self.tensions)
+    def slip(self, force: float, side: float = 1.0) -> Slip:
+        """Return the slip function under a force in N, for slipping to a side, 1 or −1."""
+        joint = LoadedJoint.of(self.design, self.loaded(force))
+        left, right = self.tensions
+        return Slip(joint, left + right - joint.size, left, right, side)
 
     def excess(self, force: float, side: float) -> float:
         """Return g in units of r T at the angle under a force in N, for slipping to a side."""
-        value: float = self.slip(force).facing(side).value(side * self.bend_angle)
+        value: float = self.slip(force, side).value(side * self.bend_angle)
         return value
 
     def lift(self, force: float) -> float:
@@ -94,7 +95,7 @@ class PushedUnit(NamedTuple):
         ]
 
     def _is_at_limit(self, force: float, side: float) -> bool:
-        slip = self.slip(force).facing(side)
+        slip = self.slip(force, side)
         probe = slip.probe(side * self.bend_angle)
         scale = abs(probe[5]) + probe[8][0] + slip.share
         return bool(abs(probe[1]) <= AT_LIMIT * scale)

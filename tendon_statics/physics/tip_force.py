@@ -10,7 +10,7 @@ its limit, and the set is one of these ends. See `pushed_unit` for the closed fo
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from .admissible import Interval, check_bend_angle
@@ -160,26 +160,36 @@ def tip_force(
     if slipping and slipping not in SIDES:
         raise ValueError(f"slipping is {slipping!r}, allowed is 's', 'l' or empty")
     unit = PushedUnit(design, tensions, angle, load.on(design), push)
+
+    def with_design(other: JointDesign) -> PushedUnit:
+        return unit._replace(design=other, dead=load.on(other))
+
     if slipping:
-        return _at_limit(unit, load, noise, level, SIDES[slipping])
+        return _at_limit(unit, with_design, noise, level, SIDES[slipping])
     sides = (-math.copysign(1.0, angle),) if at_stop else BOTH_SIDES
     exact = unit.forces_held(sides)
     if noise.is_none:
         is_free = any(low <= 0.0 <= high for low, high in exact)
         return TipForce(exact, level, float(is_free), at_limit=False)
-    doubt = Doubt(ForceScores(unit, load, noise), sides)
+    doubt = Doubt(ForceScores(unit, noise, with_design), sides)
     cuts = [end for interval in exact for end in interval if math.isfinite(end)]
     for side in sides:
         cuts += unit.forces_at_limit(side)
     return TipForce(
-        forces_within(doubt, cuts, unit.total, level),
+        forces_within(doubt, [(cut, doubt) for cut in cuts], unit.total, level),
         level,
         doubt.probability(0.0),
         at_limit=False,
     )
 
 
-def _at_limit(unit: PushedUnit, load: Load, noise: Noise, level: float, side: float) -> TipForce:
+def _at_limit(
+    unit: PushedUnit,
+    with_design: Callable[[JointDesign], PushedUnit],
+    noise: Noise,
+    level: float,
+    side: float,
+) -> TipForce:
     """What is known while friction is at its limit against slipping to a side."""
     forces = sorted(unit.forces_at_limit(side))
     force = forces[0] if len(forces) == 1 else None
@@ -187,16 +197,25 @@ def _at_limit(unit: PushedUnit, load: Load, noise: Noise, level: float, side: fl
         points = [(one, one) for one in forces]
         stddev = None if force is None else 0.0
         return TipForce(points, level, float(0.0 in forces), True, force, stddev)
-    scores = ForceScores(unit, load, noise)
+    scores = ForceScores(unit, noise, with_design)
     doubt = Doubt(scores, (), side)
-    intervals = forces_within(doubt, forces, unit.total, level)
-    stddev = None
-    if force is not None:
-        step = STEP * (unit.total + abs(force))
-        before, after = (scores.towards(force + by, side) for by in (-step, step))
-        slope = (after - before) / (2.0 * step)
-        stddev = 1.0 / abs(slope) if slope else None
+    intervals = forces_within(doubt, [(one, doubt) for one in forces], unit.total, level)
+    stddev = None if force is None else stddev_at_limit(scores, force, side, unit.total)
     return TipForce(intervals, level, doubt.probability(0.0), True, force, stddev)
+
+
+def stddev_at_limit(scores: ForceScores, force: float, side: float, scale: float) -> float | None:
+    """Return the deviation in N of a force at which friction is at its limit, if it has one.
+
+    Parameters
+    ----------
+    scale : float
+        Of the forces, in N.
+    """
+    step = STEP * (scale + abs(force))
+    before, after = (scores.towards(force + by, side) for by in (-step, step))
+    slope = (after - before) / (2.0 * step)
+    return 1.0 / abs(slope) if slope else None
 
 
 def checked_noise(

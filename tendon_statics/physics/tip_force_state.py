@@ -107,14 +107,15 @@ def tip_force_of_state(
         angle, stddev = state.bend_angle or 0.0, own_stddev
     design = state.design
     angle = check_bend_angle(design, angle)
-    reach = SAME_ANGLE + NORMAL.inv_cdf(0.5 * (1.0 + level)) * stddev
     slipping = ''
-    if state.regime is Regime.SLIPPING and state.bend_angle is not None:
-        apart = abs(angle - state.bend_angle)
-        if bend_angle is None or apart <= math.hypot(reach, 2.0 * own_stddev):
-            pair = state.tension_l, state.tension_s
-            margin = slip_margin(design, *pair, state.bend_angle, state.load)
-            slipping = 's' if margin > 0.0 else 'l'
+    own = state.bend_angle
+    if (
+        state.regime is Regime.SLIPPING
+        and own is not None
+        and (bend_angle is None or agree(angle, stddev, own, own_stddev, level))
+    ):
+        margin = slip_margin(design, state.tension_l, state.tension_s, own, state.load)
+        slipping = 's' if margin > 0.0 else 'l'
     at_stop = may_be_at_stop(design, angle, stddev + SAME_ANGLE)
     return tip_force(
         *(design, state.tension_l, state.tension_s),
@@ -129,6 +130,12 @@ def tip_force_of_state(
         slipping='' if at_stop else slipping,
         at_stop=at_stop,
     )
+
+
+def agree(angle: float, stddev: float, own: float, own_stddev: float, level: float) -> bool:
+    """Return whether a measured angle and that of a state may be the same, all in rad."""
+    reach = SAME_ANGLE + NORMAL.inv_cdf(0.5 * (1.0 + level)) * stddev
+    return abs(angle - own) <= math.hypot(reach, 2.0 * own_stddev)
 
 
 def stddev_of_angle(state: Equilibrium | StateUnderNoise, tension_stddev: float) -> float:

@@ -19,9 +19,8 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
 from tendon_statics_interfaces.srv import SolveArm
 
-from tendon_statics import ArmTracker, Load, StickSlipTracker, arm_tip_force, load_arm
+from tendon_statics import ArmTracker, Load, StickSlipTracker, load_arm
 from tendon_statics.files.installed_files import installed_config
-from tendon_statics.physics.deviations import BEND_ANGLE_STDDEV, TENSION_STDDEV
 
 ARM = load_arm(installed_config('arm.yaml'))
 NAMES = tuple(f'arm_joint_{number}' for number in range(1, 6))
@@ -463,33 +462,3 @@ def test_gravity_and_the_force_on_the_tip_come_from_sensors(client):
         assert newest.tip_force_z == -0.01
         load = Load((1.0, 0.0, 0.0), (0.0, -0.01))
         assert same(newest.bend_angles, ArmTracker(ARM).update(EVEN, load).bend_angles)
-
-
-def test_what_pushes_at_the_tip_is_told_from_measured_angles(client):
-    from tendon_statics_interfaces.msg import TipForce
-
-    forces = []
-    client.create_subscription(TipForce, 'arm_estimator/tip_force', forces.append, 10)
-    with client.estimator('-p', 'tip_force:=true', *LONG):
-        angles = dict.fromkeys(NAMES, 0.0)
-
-        def told():
-            client.measure(**angles)
-            client.send(HELD)
-            time.sleep(0.05)
-            return bool(forces) and forces[-1].bend_angle_measured
-
-        wait_for('a force from measured angles', told)
-        found = arm_tip_force(
-            *(ARM, HELD),
-            bend_angles=list(angles.values()),
-            direction=(1.0, 0.0, 0.0),
-            tension_stddev=TENSION_STDDEV,
-            bend_angle_stddev=BEND_ANGLE_STDDEV,
-        )
-        ends = [end for interval in found.intervals for end in interval]
-        assert list(forces[-1].intervals) == pytest.approx(ends, abs=1e-9)
-        assert ends
-        assert forces[-1].level == 0.95
-        assert forces[-1].probability_free == pytest.approx(found.probability_free)
-        assert forces[-1].tip_distance == ARM.units[-1].length

@@ -21,6 +21,7 @@ from tendon_statics import (
     ArmUnit,
     BendAngleError,
     Cable,
+    DesignUncertainty,
     Load,
     LoadError,
     Regime,
@@ -438,10 +439,81 @@ def test_with_noise_an_arm_of_one_is_the_single_unit():
         assert found.bounding_joints == [(1, 1)]
 
 
-@pytest.mark.parametrize('wrong', [{'tension_stddev': -1.0}, {'level': 1.0}])
-def test_deviations_and_levels_that_are_none_are_refused(pushed, wrong):
+@pytest.mark.parametrize(
+    'wrong', [{'tension_stddev': -1.0}, {'level': 1.0}, {'slipping': {1: 'x'}}]
+)
+def test_deviations_levels_and_sides_that_are_none_are_refused(pushed, wrong):
     with pytest.raises(ValueError, match=next(iter(wrong))):
         pushed[0].found(**wrong)
+
+
+def shared(design, **stddevs):
+    """An uncertainty of parameters that are independent, as shares of each."""
+    variances = [(share * getattr(design, name)) ** 2 for name, share in stddevs.items()]
+    return DesignUncertainty(tuple(stddevs), tuple(map(tuple, np.diag(variances).tolist())))
+
+
+def inputs_of(case, names):
+    """What an arm's force follows: each with its deviation, a step, and what a step changes."""
+    for name, tension in case.tensions.items():
+        yield (
+            0.01,
+            1e-5,
+            lambda step, n=name, m=tension: {'tensions': {**case.tensions, n: m + step}},
+        )
+    for index in range(len(case.angles)):
+        yield (
+            *(0.005 * (index + 1), 1e-6),
+            lambda step, i=index: {
+                'bend_angles': [angle + step * (k == i) for k, angle in enumerate(case.angles)]
+            },
+        )
+    for index, unit in enumerate(case.arm.units):
+        for name in names:
+            value = getattr(unit.design, name)
+
+            def built(step, i=index, unit=unit, name=name, value=value):
+                design = dataclasses.replace(unit.design, **{name: value + step})
+                units = list(case.arm.units)
+                units[i] = dataclasses.replace(unit, design=design)
+                return {'arm': dataclasses.replace(case.arm, units=tuple(units))}
+
+            yield 0.02 * abs(value), 1e-5 * abs(value), built
+
+
+def test_the_deviation_of_a_slipping_joints_force_is_that_of_all_that_is_measured_and_built():
+    """Against differences through the exact force: of each tension, angle and parameter."""
+    draw = random.Random(1825)
+    parameters = ('mass', 'com_distance', 'ball_radius', 'friction_coefficient', 'gravity')
+    compared = 0
+    while compared < some_of(40):
+        case = random_pushed(draw, friction=False)
+        joint, side = draw.randint(1, len(case.angles)), draw.choice('sl')
+        names = draw.sample(parameters, 2)
+
+        def force(case=case, joint=joint, side=side, **changed):
+            found = case.found(slipping={joint: side}, **changed).joint_intervals[joint - 1]
+            return found[0][0] if len(found) == 1 else math.nan
+
+        found = case.found(
+            slipping={joint: side},
+            tension_stddev=0.01,
+            bend_angle_stddev=[0.005 * number for number in range(1, len(case.angles) + 1)],
+            design_covariance=[
+                shared(design, **dict.fromkeys(names, 0.02)) for design in case.arm.designs
+            ],
+        )
+        if found.force is None or abs(found.force) > 0.3 * case.scale:
+            continue
+        variance = sum(
+            (stddev * (force(**change(step)) - force(**change(-step))) / (2.0 * step)) ** 2
+            for stddev, step, change in inputs_of(case, names)
+        )
+        if math.isfinite(variance):
+            assert found.at_limit
+            assert found.force == force()
+            assert found.force_stddev == pytest.approx(math.sqrt(variance), rel=1e-3), case
+            compared += 1
 
 
 def test_the_true_force_is_inside_at_the_stated_rate():

@@ -28,9 +28,9 @@ class Pushed(NamedTuple):
 
     def found(self, **changed):
         asked = {'bend_angles': self.angles, 'load': self.load, **changed}
-        tensions = asked.pop('tensions', self.tensions)
+        arm, tensions = asked.pop('arm', self.arm), asked.pop('tensions', self.tensions)
         direction = tuple(asked.pop('direction', self.direction))
-        return arm_tip_force(self.arm, tensions, direction=direction, **asked)
+        return arm_tip_force(arm, tensions, direction=direction, **asked)
 
 
 def random_pushed(draw, friction=True):
@@ -49,19 +49,42 @@ def random_pushed(draw, friction=True):
     return Pushed(arm, load, tensions, angles, np.array([math.sin(of), math.cos(of)]))
 
 
+def with_used_friction(draw, case):
+    """The same with tensions at all joints, of which friction has let each be anything allowed."""
+    friction, tensions = case.arm.cable_friction_coefficient, {}
+    for cable in case.arm.cables:
+        along, tension = [], case.tensions[cable.name]
+        for angle in case.angles[: cable.last_unit]:
+            tension *= math.exp(draw.uniform(-1.0, 1.0) * friction * abs(angle))
+            along.append(tension)
+        tensions[cable.name] = along
+    return case._replace(tensions=tensions)
+
+
 def joints_held(case, force):
     """Whether friction can hold each joint under forces in N, from vectors: a row for each."""
-    reference = arm_brute.BruteArm(case.arm, case.angles)
-    pulls = reference.pulls(case.tensions, case.angles)
-    push = force * case.direction[0], force * case.direction[1]
     found = []
+    for is_seated, *excesses in joint_excesses(case, force):
+        found.append(is_seated & (excesses[0] <= 0.0) & (excesses[1] <= 0.0))
+    return np.array(found)
+
+
+def joint_excesses(case, force):
+    """Of each joint whether it is seated, and its excess over friction in N m, to s and to l."""
+    reference = arm_brute.BruteArm(case.arm, case.angles)
+    if any(isinstance(of, list) for of in case.tensions.values()):  # at all joints
+        pulls = [case.tensions[cable.name] for cable in case.arm.cables]
+    else:
+        pulls = reference.pulls(case.tensions, case.angles)
+    push = force * case.direction[0], force * case.direction[1]
     for joint, design in enumerate(case.arm.designs):
         moment, *state = reference.at_joint(joint, case.load, case.angles, pulls, push)
         total, axial, across = state
         with np.errstate(all='ignore'):
-            is_held = brute.seats(design, total, axial, across)
-            for side in (1.0, -1.0):
-                capacity = brute.capacity_under(design, total, axial, side * across)
-                is_held &= side * moment <= capacity
-        found.append(is_held)
-    return np.array(found)
+            yield (
+                brute.seats(design, total, axial, across),
+                *(
+                    side * moment - brute.capacity_under(design, total, axial, side * across)
+                    for side in (1.0, -1.0)
+                ),
+            )

@@ -14,6 +14,7 @@ from ...files.arm_settings import (
     arm_settings_from,
     check_arm_parameters,
     joint_names,
+    uncertainties_in,
 )
 from ...physics.arm import Arm
 from .declaration import declare_all
@@ -59,11 +60,23 @@ def declare_arm_wiring(node: Node) -> tuple[ArmWiring, Arm]:
     return given._replace(joint_names=names), arm
 
 
-def arm_table(arm: Arm, names: tuple[str, ...]) -> NodeTable[ArmSettings]:
-    """Return the table of the estimator of an arm whose joints have these names."""
+def arm_table(arm: Arm, wiring: ArmWiring) -> NodeTable[ArmSettings]:
+    """Return the table of the estimator of an arm.
+
+    Raises
+    ------
+    SettingError
+        If a file of a design has an uncertainty that is none.
+    """
+    uncertainties = uncertainties_in(wiring.arm_file)
     return NodeTable(
         ARM_WIRING,
         (*ARM_CHANGEABLE, *cable_table(arm.cable_names)),
         partial(check_arm_parameters, arm),
-        partial(arm_settings_from, arm, names=names),
+        partial(
+            arm_settings_from,
+            arm,
+            names=wiring.joint_names,
+            design_uncertainties=uncertainties,
+        ),
     )

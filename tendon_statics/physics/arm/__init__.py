@@ -8,6 +8,7 @@ from .order import JointSlip, arm_slip_order
 from .shape import TipPose
 from .state import ArmState
 from .tip_force import ArmTipForce, arm_tip_force
+from .tip_force_state import arm_tip_force_of_state
 from .tracker import ArmTracker
 
 __all__ = [
@@ -25,4 +26,5 @@ __all__ = [
     'arm_slip_order',
     'arm_tensions_for',
     'arm_tip_force',
+    'arm_tip_force_of_state',
 ]

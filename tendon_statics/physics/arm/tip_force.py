@@ -1,51 +1,57 @@
 """What pushes at the tip of an arm: the forces along a known line that all joints explain.
 
 With all others frozen a joint is a single unit, which tells the force as a set; see `tip_force` of
-the single unit. The force acts on every joint, so it is in the sets of all: their intersection.
+the single unit. The force acts on every joint, so it is in the sets of all: their intersection. A
+joint that slips tells it as a number, which the others can only confirm or contradict.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence, Sized
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from ..admissible import Interval
-from ..errors import TensionError
+from ..design_uncertainty import DesignUncertainty
+from ..errors import ArmError
 from ..force_ends import forces_within
 from ..force_scores import Doubt
-from ..load import UPRIGHT, Load, push_along
-from ..pushed_unit import BOTH_SIDES, PushedUnit
-from ..tip_force import checked_noise
+from ..load import UPRIGHT, Load
+from ..pushed_unit import BOTH_SIDES
+from ..tip_force import SIDES, checked_noise, stddev_at_limit
 from .arm import Arm
-from .cables import AtJoints, crossings, transmitted
-from .carried import Carried, frozen_loads
-from .force_doubt import ArmDoubt, JointScores, gains_at
-from .joints import check_bend_angles, check_joint, taut_pairs
+from .common_forces import common_forces
+from .force_doubt import ArmDoubt, ArmNoise, joint_scores
+from .joints import check_bend_angles, check_joint
+from .pushed_arm import PushedArm
 
-EXACT = 1e-9
-"""N, or share of a force above 1 N: how exact an end is"""
-
-End = tuple[float, int | None]
-"""A force in N, and the joint that bounds the set there"""
+NONE_SLIPS: Mapping[int, str] = {}
 
 
 class ArmTipForce(NamedTuple):
     """What is known of the force at the tip of an arm, in N along its direction."""
 
     intervals: list[Interval]
-    """Forces with which friction can hold all joints: closed intervals, ascending and disjoint,
-    rays with an infinite end"""
+    """Forces that explain all joints, with the probability `level`: closed intervals, ascending
+    and disjoint, rays with an infinite end"""
     bounding_joints: list[tuple[int | None, int | None]]
     """For each interval the joints, counted from 1 at the base, that bound its lower and its upper
     end; None for an infinite end"""
     joint_intervals: list[list[Interval]]
-    """Forces with which friction can hold each joint by itself, from the base on; exact, for
-    readings as they are"""
+    """Forces that explain each joint by itself, from the base on; exact, for readings as they
+    are"""
     level: float = 0.95
     """Probability with which the intervals hold the true force, where there is noise"""
     probability_free: float = math.nan
-    """Probability that nothing at the tip explains the state"""
+    """Probability that nothing at the tip explains the state; at the limit, that of a reading as
+    far from nothing"""
+    at_limit: bool = False
+    """Whether a joint slips, so that friction is at its limit there"""
+    force: float | None = None
+    """The one force that there is at the limit, of the joint that tells it best; None where there
+    are several or none, and where the joints contradict one another"""
+    force_stddev: float | None = None
+    """Its standard deviation to first order"""
 
 
 def arm_tip_force(
@@ -56,8 +62,10 @@ def arm_tip_force(
     direction: Sequence[float],
     load: Load = UPRIGHT,
     at_stop: Collection[int] = (),
+    slipping: Mapping[int, str] = NONE_SLIPS,
     tension_stddev: float = 0.0,
-    bend_angle_stddev: float = 0.0,
+    bend_angle_stddev: float | Sequence[float] = 0.0,
+    design_covariance: DesignUncertainty | Sequence[DesignUncertainty | None] | None = None,
     level: float = 0.95,
 ) -> ArmTipForce:
     """Return the forces at the tip with which friction can hold an arm where it is.
@@ -65,8 +73,8 @@ def arm_tip_force(
     Each end is a force at which a joint is about to slip, or the limit of those that leave it
     seated; which joint that is comes along. Without noise exact, in closed form. With noise the
     ends are widened so that the true force is inside at the rate `level` if it is at an end of the
-    true set, else more often; see `force_doubt`. For an arm of one unit it is `tip_force` at the
-    distance of the unit's length.
+    true set, else more often; see `force_doubt`. Of a joint that slips the set is one of its ends.
+    For an arm of one unit it is `tip_force` at the distance of the unit's length.
 
     Parameters
     ----------
@@ -85,10 +93,16 @@ def arm_tip_force(
     at_stop : collection of int
         Joints, counted from 1 at the base, that may lean on their stop, each to the side of its
         angle. The stop carries what friction does not.
+    slipping : mapping of int to str
+        Joint, counted likewise → the cables, ``s`` or ``l``, towards which it is known to be
+        slipping. All others may be at rest.
     tension_stddev : float
         Standard deviation of each cable's tension in N, all independent.
-    bend_angle_stddev : float
-        Standard deviation of each angle in rad, all independent.
+    bend_angle_stddev : float or sequence of float
+        Standard deviation of each angle in rad, or of all, independent of one another.
+    design_covariance : DesignUncertainty, or sequence of them or None, optional
+        Of parameters of each unit's design, from the base on, or of all; the units are independent
+        of one another. Without it the designs are exact.
     level : float
         Probability with which the intervals hold the true force, from 0.5 to below 1.
 
@@ -102,111 +116,115 @@ def arm_tip_force(
         If the direction is no unit vector in the plane of bending, or the load's own force is said
         to act elsewhere than at the tip.
     ArmError
-        If the arm has no such joint.
+        If the arm has no such joint, or there are not as many deviations of the angles, or
+        uncertainties of the designs, as units.
     ValueError
-        If a deviation or the level is not allowed.
+        If a deviation, the level or a side in `slipping` is not allowed.
     """
     angles = check_bend_angles(arm, bend_angles)
-    noise = checked_noise(tension_stddev, bend_angle_stddev, level)
-    at_joints = _at_joints(arm, tensions, angles)
-    pairs = taut_pairs(arm, at_joints)
-    # What each unit carries, and what a newton at the tip adds to it.
-    dead = Carried(arm, load).dead
-    push = [push_along(direction, unit.length) for unit in arm.units]
-    pairings = zip(
-        *(arm.designs, pairs, angles, frozen_loads(dead, angles), frozen_loads(push, angles)),
-        strict=True,
-    )
-    units = [PushedUnit(*of_joint) for of_joint in pairings]
+    noise = _checked_noise(arm, tension_stddev, bend_angle_stddev, design_covariance, level)
     leaning = {check_joint(arm, joint) for joint in at_stop}
+    slips = {check_joint(arm, joint): _side(joint, to) for joint, to in slipping.items()}
+    pushed = PushedArm.of(arm, tensions, angles, direction, load)
+    units = pushed.units
     sides = [
         (-math.copysign(1.0, angle),) if index in leaning else BOTH_SIDES
         for index, angle in enumerate(angles)
     ]
-    of_joints = [unit.forces_held(to) for unit, to in zip(units, sides, strict=True)]
-    common = _common(of_joints)
+    of_joints = [
+        [(force, force) for force in sorted(unit.forces_at_limit(slips[index]))]
+        if index in slips
+        else unit.forces_held(to)
+        for index, (unit, to) in enumerate(zip(units, sides, strict=True))
+    ]
+    common = common_forces(of_joints)
     exact = [(low, high) for (low, _), (high, _) in common]
     if noise.is_none:
+        one = exact[0][0] if slips and len(exact) == 1 else None
         return ArmTipForce(
             exact,
             [(before, after) for (_, before), (_, after) in common],
             of_joints,
             level,
             float(any(low <= 0.0 <= high for low, high in exact)),
+            bool(slips),
+            one,
+            None if one is None else 0.0,
         )
-    crossing = crossings(arm)
-    doubts = []
-    for index, to in enumerate(sides):
-        gains = gains_at(arm, crossing[index], at_joints, index)
-        scores = JointScores(units, index, dead, push, gains, load, noise)
-        doubts.append(Doubt(scores, to))
+    scores = joint_scores(pushed, noise)
+    doubts = [
+        Doubt(of_joint, to, slips.get(index, 0.0))
+        for index, (of_joint, to) in enumerate(zip(scores, sides, strict=True))
+    ]
+    cuts = []
+    for index, (unit, intervals, doubted) in enumerate(zip(units, of_joints, doubts, strict=True)):
+        ends = {end for interval in intervals for end in interval if math.isfinite(end)}
+        if index not in slips:
+            ends |= {force for side in sides[index] for force in unit.forces_at_limit(side)}
+        cuts += [(end, doubted) for end in ends]
     doubt = ArmDoubt(doubts)
-    cuts = {end for intervals in (exact, *of_joints) for pair in intervals for end in pair}
-    for unit, to in zip(units, sides, strict=True):
-        cuts |= {force for side in to for force in unit.forces_at_limit(side)}
-    found = forces_within(
-        doubt, [cut for cut in cuts if math.isfinite(cut)], max(u.total for u in units), level
-    )
-    bounding = [(doubt.bounding(low), doubt.bounding(high)) for low, high in found]
-    return ArmTipForce(found, bounding, of_joints, level, doubt.probability(0.0))
-
-
-def _common(of_joints: list[list[Interval]]) -> list[tuple[End, End]]:
-    """Intersect the sets of all joints."""
-    found: list[tuple[End, End]] = [((-math.inf, None), (math.inf, None))]
-    for joint, intervals in enumerate(of_joints, start=1):
-        # Where two joints bound it at the same force, the one nearer to the base is named.
-        both = [
-            (
-                low if low[0] >= own_low else (own_low, joint),
-                high if high[0] <= own_high else (own_high, joint),
-            )
-            for low, high in found
-            for own_low, own_high in intervals
-        ]
-        found = [_in_order(*ends) for ends in both if _is_interval(*ends)]
-    return found
-
-
-def _is_interval(low: End, high: End) -> bool:
-    """Return whether there is a force between two ends, or one that is both but for rounding."""
-    return low[0] <= high[0] + EXACT * max(1.0, abs(high[0]))
-
-
-def _in_order(low: End, high: End) -> tuple[End, End]:
-    """Return two ends of which the lower is not above the other, by rounding alone."""
-    if low[0] <= high[0]:
-        return low, high
-    middle = 0.5 * (low[0] + high[0])
-    return (middle, low[1]), (middle, high[1])
-
-
-def _at_joints(arm: Arm, tensions: Mapping[str, Any], angles: list[float]) -> AtJoints:
-    """Return the tensions at the joints: as `transmitted` has them, or as they are given."""
-    known = {
-        cable.name: _of_cable(cable.name, tensions[cable.name], cable.last_unit)
-        for cable in arm.cables
-        if isinstance(tensions.get(cable.name), Sized)
-    }
-    at_base = {**tensions, **{name: values[0] for name, values in known.items()}}
-    at_joints = transmitted(arm, arm.check_tensions(at_base), angles, None)
-    if not known:
-        return at_joints
-    found = []
-    for joint, here in enumerate(at_joints):
-        derived = dict(zip(arm.cable_names, here, strict=True))
-        given = {name: values[min(joint, len(values) - 1)] for name, values in known.items()}
-        found.append(arm.check_tensions({**derived, **given}))
-    return found
-
-
-def _of_cable(name: str, values: Sequence[float], count: int) -> Sequence[float]:
-    """Return the tensions of one cable, as they are given, if there is one for each joint."""
-    if isinstance(values, str):
-        raise TensionError(f'the tension of cable {name} is {values!r}, which is not a number')
-    if len(values) != count:
-        raise TensionError(
-            f'cable {name} has {len(values)} tensions, but crosses {count} joints: one in N is '
-            'needed for each, or one alone, at the base'
+    found = forces_within(doubt, cuts, max(unit.total for unit in units), level)
+    told = []
+    for index, side in slips.items():
+        forces = units[index].forces_at_limit(side)
+        stddev = (
+            stddev_at_limit(scores[index], forces[0], side, units[index].total)
+            if len(forces) == 1
+            else None
         )
-    return values
+        if stddev is not None and any(low <= forces[0] <= high for low, high in found):
+            told.append((stddev, forces[0]))
+    stddev, force = min(told, default=(None, None))
+    return ArmTipForce(
+        found,
+        [(doubt.bounding(low), doubt.bounding(high)) for low, high in found],
+        of_joints,
+        level,
+        doubt.probability(0.0),
+        bool(slips),
+        force,
+        stddev,
+    )
+
+
+def _side(joint: int, cables: str) -> float:
+    if cables not in SIDES:
+        raise ValueError(f"slipping of joint {joint} is {cables!r}, allowed is 's' or 'l'")
+    return SIDES[cables]
+
+
+def _checked_noise(
+    arm: Arm,
+    tension_stddev: float,
+    bend_angle_stddev: float | Sequence[float],
+    design_covariance: DesignUncertainty | Sequence[DesignUncertainty | None] | None,
+    level: float,
+) -> ArmNoise:
+    """Return how well all is known, unit by unit.
+
+    Raises
+    ------
+    ArmError
+        If something is not said of as many units as the arm has.
+    ValueError
+        If a deviation or the level is not allowed.
+    """
+    stddevs = _of_each(arm, 'bend_angle_stddev', bend_angle_stddev)
+    for stddev in stddevs:
+        checked_noise(tension_stddev, stddev, level)
+    designs = _of_each(arm, 'design_covariance', design_covariance)
+    return ArmNoise(tension_stddev, stddevs, designs)
+
+
+def _of_each(arm: Arm, name: str, given: Any) -> list[Any]:
+    """Return what is said of each unit, or of all."""
+    count = len(arm.units)
+    if not isinstance(given, Iterable):
+        return [given] * count
+    found = list(given)
+    if len(found) != count:
+        raise ArmError(
+            f'{name} has {len(found)} values, but the arm has {count} units: one is needed for '
+            'each, or one alone, for all'
+        )
+    return found

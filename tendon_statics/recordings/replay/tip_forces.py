@@ -14,19 +14,34 @@ from numpy.typing import NDArray
 
 from ...estimation.settings import Settings
 from ...estimation.tip_force_watch import TipForceWatch
-from ...physics import BendAngleError, DesignUncertainty, Load, LoadError, TensionError, tip_force
+from ...physics import (
+    BendAngleError,
+    DesignUncertainty,
+    Load,
+    LoadError,
+    TensionError,
+    TipForce,
+    tip_force,
+)
+from ...physics.arm import ArmTipForce
 from ...physics.load import push_along
 from ...physics.tip_force import may_be_at_stop
 from ..errors import RecordingError
 from ..progress import Progress, unseen
 from ..recording import Recording
 from ..samples import usable
-from ..session import Floats
+from ..session import Floats, Session
 
 BEYOND = 5.0
 """Deviations by which noise may put a measured angle beyond a stop"""
 
 SLIPPING = 'slipping'
+
+
+Row = tuple[float, float, float, bool]
+"""Lowest and highest force in N, the probability of a free tip, whether at the limit"""
+
+UNKNOWN: Row = (math.nan, math.nan, math.nan, False)
 
 
 class TipForces(NamedTuple):
@@ -44,6 +59,18 @@ class TipForces(NamedTuple):
     measured: Floats | None
     """What was measured along the direction, in N; None if nothing was"""
     level: float
+
+    @classmethod
+    def of(
+        cls,
+        places: NDArray[np.int64],
+        rows: Sequence[Row],
+        measured: Floats | None,
+        level: float,
+    ) -> TipForces:
+        """Return what is known of samples, a row of each."""
+        low, high, free, at_limit = np.array(rows, dtype=np.float64).reshape(-1, 4).T
+        return cls(places, low, high, free, at_limit > 0.0, measured, level)
 
     @property
     def known(self) -> NDArray[np.bool_]:
@@ -114,17 +141,16 @@ def tip_forces(
         )
     x, z, _, _ = push_along(direction, distance)
     design, stop = settings.design, settings.design.max_bend_angle
-    measured = _along(recording, x, z)
+    measured = measured_along(recording, x, z)
     bare = dataclasses.replace(recording, tip_force_x=None, tip_force_z=None)
     loads = bare.loads(load)
     tensions = usable(bare, settings).tensions()
     sides = _sides(recording, settings, bend_angle_stddev)
-    count = len(recording) if most is None else min(most, len(recording))
-    places = np.unique(np.linspace(0, len(recording) - 1, count).round().astype(np.int64))
+    places = chosen_places(recording, most)
     rows = []
     for place in progress(places.tolist(), 'solving'):
         angle = float(recording.bend_angle[place])
-        row = (math.nan, math.nan, math.nan, False)
+        row = UNKNOWN
         if abs(angle) - stop <= BEYOND * bend_angle_stddev:  # never of a NaN
             at_stop = may_be_at_stop(design, angle, bend_angle_stddev)
             try:
@@ -144,16 +170,25 @@ def tip_forces(
             except (TensionError, LoadError):
                 pass
             else:
-                ends = [end for interval in found.intervals for end in interval]
-                hull = (min(ends), max(ends)) if ends else (math.nan, math.nan)
-                row = (*hull, found.probability_free, found.at_limit)
+                row = row_of(found)
         rows.append(row)
-    low, high, free, at_limit = np.array(rows, dtype=np.float64).reshape(-1, 4).T
-    along = None if measured is None else measured[places]
-    return TipForces(places, low, high, free, at_limit > 0.0, along, level)
+    return TipForces.of(places, rows, None if measured is None else measured[places], level)
 
 
-def _along(recording: Recording, x: float, z: float) -> Floats | None:
+def chosen_places(recording: Session, most: int | None) -> NDArray[np.int64]:
+    """Return the places of samples that are looked at: all, or so many, evenly chosen."""
+    count = len(recording) if most is None else min(most, len(recording))
+    return np.unique(np.linspace(0, len(recording) - 1, count).round().astype(np.int64))
+
+
+def row_of(found: TipForce | ArmTipForce) -> Row:
+    """Return what is known of one sample."""
+    ends = [end for interval in found.intervals for end in interval]
+    hull = (min(ends), max(ends)) if ends else (math.nan, math.nan)
+    return (*hull, found.probability_free, found.at_limit)
+
+
+def measured_along(recording: Session, x: float, z: float) -> Floats | None:
     """Return what was measured of the tip force along a direction, in N."""
     parts = [
         (share, values)

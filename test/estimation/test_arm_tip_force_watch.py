@@ -1,0 +1,78 @@
+"""What pushes at the tip of an arm over time: measured angles, motion, and what is no evidence."""
+
+import math
+
+import pytest
+from designs import PRELIMINARY
+
+from tendon_statics import Arm, ArmTracker, ArmUnit, Cable, arm_tip_force
+from tendon_statics.estimation.arm_settings import ArmSettings
+from tendon_statics.estimation.arm_tip_force_watch import ArmTipForceWatch
+
+ARM = Arm([ArmUnit(PRELIMINARY, 0.02)] * 2, [Cable('l', 'l', 2), Cable('s', 's', 2)])
+SETTINGS = ArmSettings(ARM, ('one', 'two'))
+EVEN = {'l': 1.0, 's': 1.1}
+ASKED = {
+    'direction': (1.0, 0.0),
+    'tension_stddev': SETTINGS.tension_stddev,
+    'bend_angle_stddev': SETTINGS.measured_bend_angle_stddev,
+}
+
+
+def measured(watch, paths, until=1.0):
+    """Measure angles of joints 100 times a second, up to a time in s."""
+    for index in range(int(100.0 * until) + 1):
+        time = 0.01 * index
+        watch.note_angles({joint: path(time) for joint, path in paths.items()}, time, SETTINGS)
+
+
+def held():
+    return ArmTracker(ARM).update(EVEN)
+
+
+def test_measured_angles_at_rest_give_the_set_of_them():
+    watch = ArmTipForceWatch(2)
+    measured(watch, {1: lambda _: 0.05, 2: lambda _: -0.1})
+    found = watch.ask(held(), SETTINGS, 1.0)
+    assert found.is_measured
+    assert found.found == arm_tip_force(ARM, EVEN, bend_angles=[0.05, -0.1], **ASKED)
+    assert math.isnan(found.bend_angle)
+
+
+@pytest.mark.parametrize(('speed', 'side'), [(0.3, 's'), (-0.3, 'l')])
+def test_while_one_joint_moves_steadily_the_force_is_a_number(speed, side):
+    watch = ArmTipForceWatch(2)
+    measured(watch, {1: lambda _: 0.05, 2: lambda time: speed * time})
+    found = watch.ask(held(), SETTINGS, 1.0).found
+    assert found.at_limit
+    assert found == arm_tip_force(
+        ARM, EVEN, bend_angles=[0.05, speed], slipping={2: side}, **ASKED
+    )
+    assert found.joint_intervals[1][0][0] == found.joint_intervals[1][0][1]
+
+
+def test_a_joint_that_is_not_measured_is_where_the_tracker_has_it_and_that_is_no_evidence():
+    watch = ArmTipForceWatch(2)
+    measured(watch, {2: lambda _: 0.1})
+    found = watch.ask(held(), SETTINGS, 1.0)
+    assert not found.is_measured
+    own = held().bend_angle_stddevs(SETTINGS.tension_stddev)[0]
+    stddevs = (own, SETTINGS.measured_bend_angle_stddev)
+    asked = {**ASKED, 'bend_angle_stddev': stddevs}
+    assert found.found == arm_tip_force(ARM, EVEN, bend_angles=[0.0, 0.1], **asked)
+    # Of long ago, and beyond a stop or none at all, it is as if it were not measured.
+    assert not watch.ask(held(), SETTINGS, 9.0).is_measured
+    watch.note_angles({1: math.nan, 2: 3.0}, 1.0, SETTINGS)
+    assert watch.ask(held(), SETTINGS, 1.0).found == found.found
+
+
+def test_nothing_is_said_while_a_cable_is_slack_or_an_angle_is_not_known():
+    watch = ArmTipForceWatch(2)
+    measured(watch, {1: lambda _: 0.0})
+    tracker = ArmTracker(ARM)
+    assert watch.ask(tracker.update({'l': 1.0, 's': 0.0}), SETTINGS, 1.0) is None
+    assert watch.ask(tracker.update(EVEN), SETTINGS, 1.0) is None  # joint 2 may have moved
+    watch.note_angles({2: 0.0}, 1.0, SETTINGS)
+    assert watch.ask(tracker.update(EVEN), SETTINGS, 1.0).is_measured
+    watch.forget()
+    assert watch.ask(tracker.update(EVEN), SETTINGS, 1.0) is None
