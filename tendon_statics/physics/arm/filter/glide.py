@@ -1,4 +1,4 @@
-"""Joints of many arms that move a little, at once: `one_go` in arrays.
+"""Joints of many arms that move a little, at once: `legs` and `rest` in arrays.
 
 Where noise or a ramp moves joints that slip already, what is left to go is as good as linear, and
 all members of a filter go it at once: up to where other joints move, or to rest.
@@ -12,8 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..legs import SMALL
 from ..motion import ROUNDING
-from ..one_go import SMALL, TINY
+from ..rest import TINY
 from .linear_motions import LinearMotions, times
 from .look import Look, Pulled
 
