@@ -62,9 +62,7 @@ def test_a_value_that_the_node_does_not_take_is_refused_in_the_same_words(unit, 
 
 
 def test_the_file_of_an_arm_is_told_from_that_of_a_unit():
-    with pytest.raises(
-        DesignError, match='it is the file of an arm, .* tendon-statics arm'
-    ):
+    with pytest.raises(DesignError, match=r'it is the file of an arm, .* tendon-statics arm'):
         load_unit(installed_config('arm.yaml'))
 
 

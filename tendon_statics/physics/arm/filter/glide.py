@@ -162,11 +162,11 @@ def _changes(arms: Moving, jacobian: Floats) -> Callable[[Floats, Floats], Flags
     rows = look.sides[:, :, None] * np.where(which[:, None], look.jacobian(joints), 0.0)
 
     def happens(way: Floats, velocity: Floats) -> Flags:
-        falls = sides * velocity < -SMALL * np.abs(velocity).max(axis=1, keepdims=True)
+        falls = sides * velocity < -SMALL * np.abs(velocity).max(axis=-1, keepdims=True)
         falls &= sides * times(jacobian, velocity) < 0.0
-        found = (which & (falls | (sides * way >= to_go))).any(axis=1)
-        found |= np.abs(way).max(axis=1) > 2.0 * NEAR
-        found |= (lacking + times(rows, way) > 0.0).any(axis=1)
+        found = (which & (falls | (sides * way >= to_go))).any(axis=-1)
+        found |= np.abs(way).max(axis=-1) > 2.0 * NEAR
+        found |= (lacking + times(rows, way) > 0.0).any(axis=-1)
         return np.asarray(found)
 
     return happens
