@@ -87,6 +87,7 @@ MEANINGS_OF_ARM = {
     'all angles are assured and their deviations known',
     '~/arm_estimate': 'all of one result, stamped; for every valid message, NaN where not '
     'determined',
+    '~/committed_estimate': MEANINGS['~/committed_estimate'],
     '~/regimes': 'of each joint, for every message, but for one that comes late or twice by its '
     'stamp; who subscribes with `transient_local` hears the last at once',
     '~/tip_force': 'the forces on the end of the last unit along `tip_direction` that all joints '
@@ -94,7 +95,8 @@ MEANINGS_OF_ARM = {
     'time',
     '~/tip_wrench': 'that force, only while a joint is at the limit of friction and the angles of '
     'all are measured',
-    '~/markers': 'for RViz: the units, the regimes as colours',
+    '~/markers': 'for RViz: the units, the angles at which friction can hold each while '
+    'the others stay, the regimes as colours, gravity and tip force as arrows',
     '/diagnostics': MEANINGS['/diagnostics'] + ', with the worst joint',
     '~/solve_arm': 'where tensions would take the arm from stated angles, or from where it is, '
     'under the load of the node or another',

@@ -7,13 +7,13 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from .arm_settings import ArmSettings
-from .estimate import Sample
+from .estimate import KnownLoad, Sample
 from .filtered_arm_estimate import FilteredArmEstimate
-from .filtering import BEYOND_STOP, ForwardClock, refused_without_noise
+from .filtering import BEYOND_STOP, ForwardClock, Waiting, refused_without_noise
 from .method import WayOfEstimating
 
 if TYPE_CHECKING:
-    from ..physics import ArmFilter
+    from ..physics import ArmFilter, ArmFilterState
 
 Place = tuple[tuple[float, ...], tuple[float, ...]]
 """Angles of the joints, and their deviations, in rad"""
@@ -32,6 +32,7 @@ class ArmFiltering(WayOfEstimating[ArmSettings, FilteredArmEstimate]):
         self._filter = self._new_filter()
         self._clock = ForwardClock()
         self._newest: FilteredArmEstimate | None = None
+        self._waiting = Waiting()
 
     @classmethod
     def refusal(cls, settings: ArmSettings) -> str:
@@ -57,9 +58,12 @@ class ArmFiltering(WayOfEstimating[ArmSettings, FilteredArmEstimate]):
 
     def update(self, sample: Sample) -> FilteredArmEstimate:
         """Follow the arm through a set of tensions."""
-        self._newest = self._updated(self._filter, sample, self._clock.time(sample))
+        self._waiting.take_committed(self._filter)  # by the sample before; nobody wanted it
+        time = self._clock.time(sample)
+        self._newest = self._updated(self._filter, sample, time)
         state = self._newest.state
         if state.bend_angles is not None:
+            self._waiting.add(time, sample.measured)
             self._place = state.bend_angles, tuple(state.members.std(axis=0).tolist())
         assured = enumerate(state.angles_assured, start=1)
         self._unsure = {joint for joint, is_assured in assured if not is_assured}
@@ -77,7 +81,19 @@ class ArmFiltering(WayOfEstimating[ArmSettings, FilteredArmEstimate]):
         names, known = self.settings.arm.cable_names, sample.known
         by_name = dict(zip(names, sample.tensions, strict=True))
         state = found.update(by_name, time, known.load)
-        return FilteredArmEstimate(state, known, self.settings)
+        return self._estimate(state, known, sample.measured)
+
+    def _estimate(
+        self, state: ArmFilterState, known: KnownLoad, measured: float
+    ) -> FilteredArmEstimate:
+        return FilteredArmEstimate(state, known, self.settings, measured)
+
+    def take_committed(self) -> list[FilteredArmEstimate]:
+        """Return the estimates that will not be taken back, each once; tensions are smoothed."""
+        return [
+            self._estimate(state, KnownLoad(state.load), measured)
+            for state, measured in self._waiting.take_committed(self._filter)
+        ]
 
     def change_settings(self, settings: ArmSettings) -> str:
         """Go on with other settings, from where the arm is; the samples before are forgotten."""
@@ -90,6 +106,7 @@ class ArmFiltering(WayOfEstimating[ArmSettings, FilteredArmEstimate]):
         """Take it that the arm may have moved unseen."""
         self._filter.doubt()
         self._unsure = {*range(1, len(self.settings.start) + 1)}
+        self._waiting.clear()  # They will not be committed.
 
     def put(self, bend_angles: Sequence[float]) -> None:
         """Put the joints to angles in rad."""
@@ -119,6 +136,7 @@ class ArmFiltering(WayOfEstimating[ArmSettings, FilteredArmEstimate]):
     def _begin_anew(self, found: ArmFilter) -> None:
         self._filter = found
         self._newest = None
+        self._waiting.clear()
 
 
 def _made_of(settings: ArmSettings) -> tuple[Any, ...]:

@@ -87,6 +87,12 @@ class AnyEstimate(ABC):
     is_confirmed = True
     """False where the tensions are a first reading that may be a spike"""
 
+    is_provisional = False
+    """Whether it may be taken back when more tensions have come"""
+
+    measured = math.nan
+    """When the tensions were, as given, in s; NaN where it goes without saying"""
+
     @property
     def is_sure(self) -> bool:
         """Whether load and tensions are such that something of it may be assured."""
@@ -134,12 +140,6 @@ class Estimate(AnyEstimate):
     bend_angle : float, optional
         θ, positive towards cable s.
     """
-
-    is_provisional = False
-    """Whether it may be taken back when more tensions have come"""
-
-    measured = math.nan
-    """When the tensions were, as given, in s; NaN where it goes without saying"""
 
     consistency = math.nan
     """Probability of the measured angles under the model; NaN where none are held against it"""

@@ -24,14 +24,20 @@ class FilteredArmEstimate(ArmEstimate):
     ----------
     state : ArmFilterState
         The filter's answer.
+    measured : float
+        When the tensions were, in s.
     """
 
     state: ArmFilterState  # type: ignore[assignment]
 
-    def __init__(self, state: ArmFilterState, known: KnownLoad, settings: ArmSettings) -> None:
+    def __init__(
+        self, state: ArmFilterState, known: KnownLoad, settings: ArmSettings, measured: float
+    ) -> None:
         self.state = state
         self.known = known
         self.settings = settings
+        self.measured = measured
+        self.is_provisional = state.provisional
 
     @property
     def bend_angle_stddevs(self) -> tuple[float | None, ...]:
@@ -68,8 +74,11 @@ class FilteredArmEstimate(ArmEstimate):
 
     @property
     def bands(self) -> list[list[Interval]]:
-        """None: the noise of one set of tensions would make them flicker."""
-        return [[] for _ in self.state.joints]
+        """Of each joint the angles at which friction can hold it, with the others frozen.
+
+        At the medians of their angles, under these tensions, noise and all.
+        """
+        return self.state.admissible_angles
 
     @property
     def slow_remarks(self) -> list[Remark]:

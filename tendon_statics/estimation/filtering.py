@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from .estimate import Estimate, KnownLoad, Sample
 from .filtered_estimate import FilteredEstimate
@@ -15,6 +14,9 @@ from .settings import Settings
 
 if TYPE_CHECKING:
     from ..physics import FilterState, StickSlipFilter
+    from ..physics.filter.lagged import LaggedFilter, Timed
+
+State = TypeVar('State', bound='Timed')
 
 MOST_WAITING = 100_000
 """Samples whose times are kept until they are committed; at 10 kHz those of the longest lag"""
@@ -39,8 +41,7 @@ class Filtering(Method):
         self._filter = self._new_filter()
         self._clock = ForwardClock()
         self._newest: FilteredEstimate | None = None
-        self._waiting: deque[tuple[float, float]] = deque(maxlen=MOST_WAITING)
-        """Of samples that are not committed: time of the filter, and when they were measured"""
+        self._waiting = Waiting()
 
     @classmethod
     def refusal(cls, settings: Settings) -> str:
@@ -75,13 +76,12 @@ class Filtering(Method):
 
     def update(self, sample: Sample) -> FilteredEstimate:
         """Follow the unit through a pair of tensions."""
-        for _ in self._committed_now():
-            pass  # Nobody wanted what the sample before has committed.
+        self._waiting.take_committed(self._filter)  # by the sample before; nobody wanted it
         time = self._clock.time(sample)
         state = self._filter.update(*sample.pair, time, sample.known.load)
         if state.bend_angle is not None:
             self._here = state
-            self._waiting.append((time, sample.measured))
+            self._waiting.add(time, sample.measured)
         self._assured = state.assured
         self._newest = self._estimate(state, sample.known, sample.measured)
         return self._newest
@@ -100,18 +100,10 @@ class Filtering(Method):
 
     def take_committed(self) -> list[Estimate]:
         """Return the estimates that will not be taken back, each once; tensions are smoothed."""
-        found: list[Estimate] = []
-        for time, measured in self._committed_now():
-            state = self._filter.history(time)
-            if state is not None and state.time == time:
-                found.append(self._estimate(state, KnownLoad(state.load), measured))
-        return found
-
-    def _committed_now(self) -> Iterator[tuple[float, float]]:
-        """Times of samples that wait no longer, which are then forgotten."""
-        newest = self._filter.committed
-        while newest is not None and self._waiting and self._waiting[0][0] <= newest.time:
-            yield self._waiting.popleft()
+        return [
+            self._estimate(state, KnownLoad(state.load), measured)
+            for state, measured in self._waiting.take_committed(self._filter)
+        ]
 
     def change_settings(self, settings: Settings) -> str:
         """Go on with other settings, from where the unit is; the samples before are forgotten."""
@@ -163,6 +155,31 @@ def refused_without_noise(settings: Measuring) -> str:
         f'tension_stddev is {settings.tension_stddev!r}, and estimation is filtering, which '
         'needs the noise of each tension, above 0 N; tracking is for tensions without noise'
     )
+
+
+class Waiting:
+    """Samples that a filter has not committed yet."""
+
+    def __init__(self) -> None:
+        self._times: deque[tuple[float, float]] = deque(maxlen=MOST_WAITING)
+
+    def add(self, time: float, measured: float) -> None:
+        """Let a sample wait: its time for the filter, and when it was measured, in s."""
+        self._times.append((time, measured))
+
+    def clear(self) -> None:
+        """Forget those that will not be committed."""
+        self._times.clear()
+
+    def take_committed(self, found: LaggedFilter[State, Any]) -> list[tuple[State, float]]:
+        """Return the states of samples that wait no longer, with when these were measured."""
+        newest, states = found.committed, []
+        while newest is not None and self._times and self._times[0][0] <= newest.time:
+            time, measured = self._times.popleft()
+            state = found.history(time)
+            if state is not None and state.time == time:
+                states.append((state, measured))
+        return states
 
 
 class ForwardClock:

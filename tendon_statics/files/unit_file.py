@@ -12,6 +12,7 @@ from ..physics.design import JointDesign
 from ..physics.design_uncertainty import DesignUncertainty
 from ..physics.errors import DesignError
 from ..tensions.cable_scale import CableScale
+from .arm_file import is_arm_file
 from .design_file import design_values
 from .known_parameters import check_parameters_of_ros, said_of_unknown
 from .parameter_file import node_parameters, only_for, read_parameters
@@ -90,6 +91,11 @@ def load_unit(path: str | Path, node: str = '') -> Unit:
             )
         JointDesign.from_mapping(design)  # whose error has the key
     except ParameterFileError as error:
+        if is_arm_file(path):
+            raise DesignError(
+                f'{path}: it is the file of an arm, where that of one unit is needed; what takes '
+                'arms is tendon-statics arm'
+            ) from None
         raise DesignError(f'{path}: {error}') from None
     except DesignError as error:
         key = f'design.{error.key}' if error.key else ''

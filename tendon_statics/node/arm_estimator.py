@@ -20,8 +20,10 @@ from .inputs.measured_joints import measured_joints
 from .inputs.sources import arm_tension_source
 from .inputs.tension_source import TensionSource
 from .managed_estimator import ManagedEstimator
+from .outputs import arm_messages
 from .outputs.arm_finding import arm_topics
 from .outputs.arm_markers import arm_markers
+from .outputs.committed import CommittedOutput
 from .outputs.publishers import Outputs
 from .parameters.arm import ArmWiring, arm_table, declare_arm_wiring
 
@@ -33,6 +35,7 @@ class ArmEstimator(ManagedEstimator[ArmSettings, ArmEstimate]):
 
     def __init__(self) -> None:
         self._tip_forces: ArmTipForces | None = None
+        self._committed: CommittedOutput | None = None
         super().__init__('arm_estimator')
 
     def _declare(self) -> None:
@@ -69,6 +72,11 @@ class ArmEstimator(ManagedEstimator[ArmSettings, ArmEstimate]):
         )
 
     def _connect(self) -> None:
+        if self._wiring.estimation == 'filtering' and not arm_messages.ARM_INTERFACES_MISSING:
+            self._committed = CommittedOutput(
+                *(self, arm_messages.ArmEstimate, arm_messages.fill_arm_estimate),
+                self._wiring.frame_id,
+            )
         if self._wiring.tip_force:
             self._tip_forces = ArmTipForces(self)
         self._inputs.add('measured_joint_states', JointState, self._on_measured_joint_states)
@@ -100,8 +108,10 @@ class ArmEstimator(ManagedEstimator[ArmSettings, ArmEstimate]):
             self._tip_forces.forget()
 
     def _publish_more(
-        self, estimate: ArmEstimate, _measured: float, stamp: Callable[[], Time]
+        self, estimate: ArmEstimate, measured: float, stamp: Callable[[], Time]
     ) -> None:
+        if self._committed is not None:
+            self._committed.publish(self.core, measured, stamp)
         if self._tip_forces is not None:
             self._tip_forces.publish(estimate, stamp)
 

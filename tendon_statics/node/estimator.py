@@ -21,7 +21,7 @@ from .outputs import messages
 from .outputs.committed import CommittedOutput
 from .outputs.finding import unit_topics
 from .outputs.markers import unit_markers
-from .outputs.publishers import Outputs, output_publisher
+from .outputs.publishers import Outputs
 from .parameters.estimator import Wiring, declare_settings, declare_wiring, unit_table
 from .unit_services import offer_unit_services
 from .unit_tip_force import UnitTipForces
@@ -57,8 +57,9 @@ class Estimator(ManagedEstimator[Settings, Estimate]):
     def _connect(self) -> None:
         wiring = self._wiring
         if wiring.estimation == 'filtering' and not messages.INTERFACES_MISSING:
-            publisher = output_publisher(self, messages.Estimate, '~/committed_estimate')
-            self._committed = CommittedOutput(publisher, wiring.frame_id)
+            self._committed = CommittedOutput(
+                self, messages.Estimate, messages.fill_estimate, wiring.frame_id
+            )
         if wiring.tip_force:
             self._tip_forces = UnitTipForces(self)
         if METHODS[wiring.estimation].remembers or wiring.tip_force:

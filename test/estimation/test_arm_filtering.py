@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from make_docs import ROOT
 
-from tendon_statics import ArmFilter, ArmTracker, Regime, load_arm
+from tendon_statics import ArmFilter, ArmTracker, Regime, arm_margins, load_arm
 from tendon_statics.estimation.arm_follower import ArmFollower
 from tendon_statics.estimation.arm_settings import ArmSettings
 from tendon_statics.estimation.estimate import KnownLoad, Remark
@@ -76,6 +76,62 @@ def test_doubt_takes_the_intervals_and_a_measurement_gives_them_back():
     (known,) = follow(follower, pulls(1), start=0.14)
     assert known.angles_assured == (True, True)
     assert known.bend_angles == pytest.approx((0.1, 0.05), abs=0.04)
+
+
+def test_what_is_newest_is_provisional_and_stays_a_lag_later_with_its_own_time():
+    follower, stays = ArmFollower(dataclasses.replace(SETTINGS, filter_lag=0.1), 'filtering'), []
+    for place, pair in enumerate(pulls(10) + [pulls(10)[-1]] * 20):
+        now = 0.02 * place
+        newest = follower.take_sample(pair, KNOWN, now, 100.0 + now)
+        assert newest.is_provisional
+        assert newest.measured == 100.0 + now
+        stays += [(now, estimate) for estimate in follower.take_committed()]
+        assert follower.take_committed() == []
+    assert len(stays) >= 24
+    for now, estimate in stays:
+        assert not estimate.is_provisional
+        assert 0.08 <= 100.0 + now - estimate.measured <= 0.13
+    assert stays[-1][1].bend_angles == pytest.approx(newest.bend_angles, abs=0.01)
+    tracking = ArmFollower(SETTINGS, 'tracking')
+    assert not follow(tracking, pulls(2))[-1].is_provisional
+    assert tracking.take_committed() == []
+
+
+@pytest.mark.parametrize('end', ['doubt', 'put_back', 'change_settings'])
+def test_what_waits_to_stay_is_forgotten_in_doubt_and_by_a_new_filter(end):
+    follower = ArmFollower(SETTINGS, 'filtering')
+    follow(follower, pulls(4))
+    if end == 'doubt':
+        follower.doubt()
+    elif end == 'put_back':
+        follower.put_back(0.1)
+    else:
+        follower.change_settings(dataclasses.replace(SETTINGS, tension_bias_stddev=1e-4))
+    stays = []
+    for place in range(20):
+        now = 0.1 + 0.02 * place
+        follower.take_sample((1.0, 1.0), KNOWN, now, now)
+        stays += follower.take_committed()
+    assert stays
+    assert min(estimate.measured for estimate in stays) >= 0.1
+
+
+def test_bands_end_where_a_joint_would_slip_with_the_others_frozen():
+    arm = dataclasses.replace(ARM, cable_friction_coefficient=0.0)
+    estimate = follow(ArmFollower(dataclasses.replace(SETTINGS, arm=arm), 'filtering'), pulls(6))[
+        -1
+    ]
+    ends = 0
+    for joint, band in enumerate(estimate.bands):
+        assert band
+        for end in (end for interval in band for end in interval):
+            if abs(end) < arm.stops[joint]:
+                angles = list(estimate.bend_angles)
+                angles[joint] = end
+                margins = arm_margins(arm, angles, estimate.state.tensions)
+                assert abs(margins[joint]) == pytest.approx(1.0, abs=1e-9)
+                ends += 1
+    assert ends
 
 
 def test_a_dict_says_what_the_estimate_says():

@@ -10,6 +10,7 @@ from programs import assert_refused, run
 
 from tendon_statics import default_design_path
 from tendon_statics.files.design_file import save_design
+from tendon_statics.files.installed_files import installed_config
 from tendon_statics.files.unit_file import load_unit
 from tendon_statics.physics import DesignError
 from tendon_statics.tensions.cable_scale import CableScale
@@ -58,6 +59,11 @@ def test_a_value_that_the_node_does_not_take_is_refused_in_the_same_words(unit, 
     path = unit(line)
     with pytest.raises(DesignError, match=f'^{path}: .*{named}'):
         load_unit(path)
+
+
+def test_the_file_of_an_arm_is_told_from_that_of_a_unit():
+    with pytest.raises(DesignError, match=r'it is the file of an arm, .* tendon-statics arm'):
+        load_unit(installed_config('arm.yaml'))
 
 
 def test_the_node_takes_the_last_of_its_blocks_and_so_does_every_verb(unit):

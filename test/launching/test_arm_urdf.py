@@ -81,6 +81,20 @@ def test_the_tip_is_that_of_the_tracker():
     assert position == pytest.approx([state.tip.x, 0.0, state.tip.z], abs=1e-15)
 
 
+@pytest.mark.parametrize('seed', range(5))
+def test_the_tip_of_any_arm_at_any_angles_is_that_of_the_tracker(seed, tmp_path):
+    draw = random.Random(70 + seed)
+    arm = random_arm(draw)
+    tracker = ArmTracker(arm, [draw.uniform(-stop, stop) for stop in arm.stops])
+    state = tracker.update(dict.fromkeys(arm.cable_names, 50.0))
+    robot = ElementTree.fromstring(arm_description(arm_file(tmp_path, arm)))
+    angles = {f'arm_joint_{n}': angle for n, angle in enumerate(state.bend_angles, start=1)}
+    position, turn = link_poses(robot, angles)['arm_tip']
+    assert position == pytest.approx([state.tip.x, 0.0, state.tip.z], abs=1e-15)
+    along = np.sin(state.tip.tilt), 0.0, np.cos(state.tip.tilt)
+    assert turn.apply([0.0, 0.0, 1.0]) == pytest.approx(along)
+
+
 def test_every_unit_has_its_own_design_stop_and_effort():
     arm = load_arm(FILE)
     robot = ElementTree.fromstring(arm_description(FILE))

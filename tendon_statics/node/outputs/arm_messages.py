@@ -65,6 +65,7 @@ def fill_arm_estimate(message: ArmEstimate, estimate: ArmAnswer, header: Header)
     message.bend_angle_lows = [low for low, _ in intervals]
     message.bend_angle_highs = [high for _, high in intervals]
     message.angles_assured = list(estimate.angles_assured)
+    message.provisional = estimate.is_provisional
     probabilities = estimate.regime_probabilities or [{}] * count
     (
         message.probabilities_held,

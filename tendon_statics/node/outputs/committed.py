@@ -3,32 +3,53 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from builtin_interfaces.msg import Time
-from rclpy.publisher import Publisher
+from rclpy.node import Node
 from std_msgs.msg import Header
 
 from ...estimation.filtering import MOST_WAITING
-from ...estimation.unit_estimator import UnitEstimator
-from . import messages
+from ...estimation.reading_estimator import ReadingEstimator
+from .publishers import output_publisher
 
 
 class CommittedOutput:
-    """Publishes committed estimates, a lag behind the tensions."""
+    """Publishes committed estimates, a lag behind the tensions.
 
-    def __init__(self, publisher: Publisher, frame_id: str) -> None:
-        self._publisher = publisher
-        self._message = messages.Estimate()
+    Parameters
+    ----------
+    node : Node
+        Where it does.
+    message_type : type
+        Of ``~/committed_estimate``.
+    fill : callable
+        Puts an estimate with a header into such a message.
+    frame_id : str
+        Of the header.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        message_type: type,
+        fill: Callable[[Any, Any, Header], Any],
+        frame_id: str,
+    ) -> None:
+        self._publisher = output_publisher(node, message_type, '~/committed_estimate')
+        self._message, self._fill = message_type(), fill
         self._header = Header(frame_id=frame_id)
         self._stamps: dict[float, Time] = {}
 
-    def publish(self, unit: UnitEstimator, measured: float, stamp: Callable[[], Time]) -> None:
+    def publish(
+        self, core: ReadingEstimator[Any, Any], measured: float, stamp: Callable[[], Time]
+    ) -> None:
         """Publish what is committed with the newest tensions, if somebody listens.
 
         Parameters
         ----------
         measured : float
-            When the newest were measured, in s, as the unit was told.
+            When the newest were measured, in s, as the core was told.
         stamp : callable
             Returns their stamp.
         """
@@ -38,9 +59,9 @@ class CommittedOutput:
         self._stamps[measured] = stamp()
         if len(self._stamps) > MOST_WAITING:  # of samples that were never committed
             del self._stamps[next(iter(self._stamps))]
-        for estimate in unit.take_committed():
+        for estimate in core.take_committed():
             its_stamp = self._stamps.pop(estimate.measured, None)
             if its_stamp is not None:
                 self._header.stamp = its_stamp
-                messages.fill_estimate(self._message, estimate, self._header)
+                self._fill(self._message, estimate, self._header)
                 self._publisher.publish(self._message)

@@ -9,31 +9,26 @@ to the side to which it is driven, all others rest. How fast is of no account, o
 The cables and the dead load do the work ∫ M dθ, of which friction takes up at least K all along,
 so the way of all joints together is bounded, and the arm comes to rest.
 
-The motion is smooth while it is the same joints that move. It is followed so, step by step, and
-each step ends where another joint comes to its limit, one falls below it, or one meets its stop.
-Where what is left to go is as good as linear, it is gone in one go: up to the next such event, or
-if there is none, to rest, where M = K of those that move is solved by Newton's method.
+The motion is smooth while it is the same joints that move. It is followed so, leg by leg, and a
+leg ends where another joint comes to its limit, one falls below it, or one meets its stop; see
+`legs`. Where none does before all are at rest, and that is near, M = K of those that move is
+solved by Newton's method instead; see `rest`.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ArmError
 from .excess import Excess, Look
+from .legs import FAR, Leg
 from .motion import Motion
-from .one_go import go_on
-from .steps import step_on
+from .rest import NEAR, TINY, come_to_rest
 
-Floats = NDArray[np.float64]
-
-FIRST_WAY = 1e-2
-"""Way in rad of the fastest joint in the first step that is tried"""
-
-MOST_STEPS = 3000
+MOST_LEGS = 3000
 
 
 @dataclass
@@ -53,33 +48,31 @@ def settle(excess: Excess, angles: list[float]) -> Settled:
     Raises
     ------
     ArmError
-        If it is not followed to rest in `MOST_STEPS`, a hundred times as many as it takes.
+        If it is not followed to rest in `MOST_LEGS`, a hundred times as many as it takes.
     """
-    motion = Motion(excess, angles)
-    step = 0.0
-    for _ in range(MOST_STEPS):
+    motion, far = Motion(excess, angles), FAR
+    for _ in range(MOST_LEGS):
         if not motion.moving:
             pairs = zip(angles, motion.look.angles, strict=True)
             moved = {joint for joint, (old, new) in enumerate(pairs) if old != new}
             return Settled(motion.look, motion.at_limit, moved)
-        velocity, jacobian = motion.velocity(motion.look), motion.jacobian(motion.look)
-        growth = _growth(jacobian)
-        if growth and go_on(motion, velocity, jacobian, growth):
-            continue
-        step = step or FIRST_WAY / float(abs(velocity).max())
-        if growth > 0.0:  # a longer one would take what grows for what has died away
-            step = min(step, 1.0 / growth)
-        step = step_on(motion, velocity, jacobian, step)
-    raise ArmError(
-        f'the arm is not at rest after {MOST_STEPS} steps: its numbers are out of all proportion'
-    )
+        try:
+            leg = Leg(motion, far)
+        except np.linalg.LinAlgError:
+            break
+        if not _rests(motion, leg):
+            far = leg.go()
+            if not far:
+                break
+    raise ArmError('the arm is not followed to rest: its numbers are out of all proportion')
 
 
-def _growth(jacobian: Floats) -> float:
-    """The fastest rate at which the motion grows; below zero where it dies away."""
-    # No eigenvalue is to the right of the discs about the diagonal.
-    diagonal = np.asarray(np.diagonal(jacobian))
-    bound = float((diagonal + abs(jacobian).sum(axis=1) - abs(diagonal)).max())
-    if bound < 0.0 or len(jacobian) == 1:
-        return bound
-    return float(np.linalg.eigvals(jacobian).real.max())
+def _rests(motion: Motion, leg: Leg) -> bool:
+    """Go to rest if it is near and a leg goes there; return whether it was gone."""
+    way = leg.linear.to_rest
+    if leg.linear.growth >= 0.0:
+        return False
+    reach = abs(way).max()
+    if reach <= TINY or (reach <= NEAR and leg.time == math.inf):
+        return come_to_rest(motion, way, leg.jacobian)
+    return False

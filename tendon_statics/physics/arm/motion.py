@@ -80,10 +80,13 @@ class Motion:
                     found[joint] = side, excess
         return found
 
-    def excess_rows(self, sides: dict[int, float]) -> Floats:
-        """Return the derivatives of the excess of some joints at rest by those that move."""
-        rows = self._excess.jacobian(self.look, sides, list(self.moving))
-        return np.array(list(sides.values())).reshape(-1, 1) * rows.reshape(-1, len(self.moving))
+    def jacobian_rows(self) -> Floats:
+        """Return ∂f/∂θ of all joints, by those that move; of those at rest to where M drives."""
+        sides = {
+            joint: self.moving.get(joint) or self.look.drive(joint)[0]
+            for joint in range(len(self.stops))
+        }
+        return self._excess.jacobian(self.look, sides, list(self.moving))
 
     def free(self) -> None:
         """Set moving what is beyond its limit and not before its stop."""

@@ -25,12 +25,15 @@ LOST = 6.0
 """Deviations of a measured angle from all members above which they are where it says"""
 
 
-class _Timed(Protocol):
+class Timed(Protocol):
+    """A state of a time in s."""
+
     @property
-    def time(self) -> float: ...
+    def time(self) -> float:
+        """In s."""
 
 
-State = TypeVar('State', bound=_Timed)
+State = TypeVar('State', bound=Timed)
 Place = TypeVar('Place')
 """Where all members are"""
 
@@ -230,5 +233,5 @@ def check_stddev(stddev: float) -> None:
         raise ValueError(f'stddev is {stddev!r} rad, which must be above 0')
 
 
-def _time(state: _Timed) -> float:
+def _time(state: Timed) -> float:
     return state.time

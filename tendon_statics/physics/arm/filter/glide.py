@@ -1,4 +1,4 @@
-"""Joints of many arms that move a little, at once: `one_go` in arrays.
+"""Joints of many arms that move a little, at once: `legs` and `rest` in arrays.
 
 Where noise or a ramp moves joints that slip already, what is left to go is as good as linear, and
 all members of a filter go it at once: up to where other joints move, or to rest.
@@ -12,8 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..legs import SMALL
 from ..motion import ROUNDING
-from ..one_go import SMALL, TINY
+from ..rest import TINY
 from .linear_motions import LinearMotions, times
 from .look import Look, Pulled
 
@@ -161,11 +162,11 @@ def _changes(arms: Moving, jacobian: Floats) -> Callable[[Floats, Floats], Flags
     rows = look.sides[:, :, None] * np.where(which[:, None], look.jacobian(joints), 0.0)
 
     def happens(way: Floats, velocity: Floats) -> Flags:
-        falls = sides * velocity < -SMALL * np.abs(velocity).max(axis=1, keepdims=True)
+        falls = sides * velocity < -SMALL * np.abs(velocity).max(axis=-1, keepdims=True)
         falls &= sides * times(jacobian, velocity) < 0.0
-        found = (which & (falls | (sides * way >= to_go))).any(axis=1)
-        found |= np.abs(way).max(axis=1) > 2.0 * NEAR
-        found |= (lacking + times(rows, way) > 0.0).any(axis=1)
+        found = (which & (falls | (sides * way >= to_go))).any(axis=-1)
+        found |= np.abs(way).max(axis=-1) > 2.0 * NEAR
+        found |= (lacking + times(rows, way) > 0.0).any(axis=-1)
         return np.asarray(found)
 
     return happens

@@ -18,6 +18,9 @@ FIRST = 1.0 / 64.0
 
 DOUBLINGS = 30
 
+BLOCK = 10
+"""Of them, that are looked at at once"""
+
 REFINEMENTS = 6
 """Halvings of the interval in which something happens"""
 
@@ -65,7 +68,7 @@ class LinearMotions:
         Parameters
         ----------
         happens : callable
-            Whether it does, from ways and velocities.
+            Whether it does, from ways and velocities of shape ``(..., systems, n)``.
 
         Returns
         -------
@@ -76,21 +79,29 @@ class LinearMotions:
         enough = DIED * np.abs(self._velocity).max(axis=1)
         at = np.full(count, -1)
         died = np.zeros(count, bool)
-        for index in range(DOUBLINGS):
+        for start in range(0, DOUBLINGS, BLOCK):
             with np.errstate(all='ignore'):  # what grows may overflow
-                if index:
-                    way, growth = self._ways[-1], self._growths[-1]
-                    self._ways.append(way + times(growth, way))
-                    self._growths.append(growth @ growth)
-                way = self._ways[-1]
-                velocity = self.velocity(way)
-                died |= (at < 0) & (np.abs(velocity).max(axis=1) <= enough)
-                at = np.where((at < 0) & ~died & happens(way, velocity), index, at)
+                self._double(start + BLOCK)
+                ways = np.array(self._ways[start:])
+                velocities = self.velocity(ways)
+                dead = np.abs(velocities).max(axis=2) <= enough
+                dead = died | np.logical_or.accumulate(dead, axis=0)
+                there = ~dead & happens(ways, velocities)
+            now = (at < 0) & there.any(axis=0)
+            at = np.where(now, start + there.argmax(axis=0), at)
+            died = dead[-1] & (at < 0)
             if ((at >= 0) | died).all():
                 break
         happened = at >= 0
         ways = self._way_at(np.maximum(at, 0), happens) if happened.any() else self._ways[-1]
         return ways, happened, died
+
+    def _double(self, count: int) -> None:
+        """Go on with doublings until there are so many."""
+        while len(self._ways) < count:
+            way, growth = self._ways[-1], self._growths[-1]
+            self._ways.append(way + times(growth, way))
+            self._growths.append(growth @ growth)
 
     def _way_at(self, at: NDArray[np.intp], happens: Callable[[Floats, Floats], Flags]) -> Floats:
         """Return the ways up to where it first happens between times of `first`."""

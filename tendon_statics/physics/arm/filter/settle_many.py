@@ -1,8 +1,11 @@
 """Many arms that slip until all their joints are at rest: `flow` in arrays.
 
-By the same rule and the same method as one arm: each member goes its own steps, which end where
-other joints move, but all members take one at the same time. That costs a fortieth of following
-them one by one.
+By the same rule as one arm: each member goes its own steps, which end where other joints move, but
+all members take one at the same time. That costs a fortieth of following them one by one.
+
+A step is one of RODAS3 of Sandu, Verwer, Blom, Spee, Carmichael and Potra, "Benchmarking stiff ODE
+solvers for atmospheric chemistry problems II: Rosenbrock solvers", Atmospheric Environment 31
+(1997): four stages, order 3 with an embedded order 2, stable for any step.
 """
 
 from __future__ import annotations
@@ -12,9 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..flow import FIRST_WAY
 from ..motion import NOTHING, ROUNDING, TOLERANCE
-from ..steps import JUST_BEYOND, STRAIGHT
 from .glide import Moving, discs_bound, glide
 from .linear_motions import times
 from .look import Look
@@ -25,6 +26,16 @@ Indices = NDArray[np.intp]
 
 STEP_ERROR = 1e-3
 """Error of one step in rad that is accepted, as estimated; where joints come to rest is exact"""
+
+FIRST_WAY = 1e-2
+"""Way in rad of the fastest joint in the first step that is tried"""
+
+STRAIGHT = 1e-4
+"""How exactly in rad a step ends where a joint with friction of the cables comes to be straight,
+where its guides let no tension be but the one before them"""
+
+JUST_BEYOND = 0.01
+"""Share of a step by which it is to go beyond where other joints move, so that they do"""
 
 MOST_STEPS = 100
 """After which what is not at rest is followed by `flow` itself"""
@@ -115,7 +126,7 @@ class _Motions:
         self._free(which[behind.any(axis=1)])
 
     def _step_on(self, which: Indices, arms: Moving, rows: Flags) -> None:
-        """Let some arms go one step of a Rosenbrock method, as `rosenbrock` and `steps` do."""
+        """Let some arms go one step of a Rosenbrock method."""
         if not rows.all():
             which, pulled = which[rows], arms.pulled.part(np.flatnonzero(rows))
             moving = arms.moving[rows]
@@ -189,7 +200,7 @@ class _Motions:
 
 
 class _Until:
-    """After which share of a step the joints that move are no longer the same, as in `steps`."""
+    """After which share of a step the joints that move are no longer the same."""
 
     def __init__(self, arms: Moving, velocity: Floats, jacobian: Floats) -> None:
         look, joints = arms.look, arms.joints
@@ -238,7 +249,7 @@ def _growth(jacobian: Floats) -> Floats:
 def _rosenbrock(
     arms: Moving, velocity: Floats, jacobian: Floats, step: Floats
 ) -> tuple[Floats, Floats]:
-    """Return the way of one step and its error, as `rosenbrock_step` does."""
+    """Return the way of one step, and an estimate of its error."""
     size = step[:, None]
     with np.errstate(all='ignore'):
         identity = np.eye(velocity.shape[1])
@@ -260,7 +271,7 @@ def _rosenbrock(
 
 
 def _cubic(way: Floats, at_start: Floats, at_end: Floats, part: Floats) -> Floats:
-    """Return the way up to a part of a step, as `cubic_path` does."""
+    """Return the way up to a part of a step, by a cubic."""
     rest = 1.0 - part
     ahead: Floats = part * part * (3.0 - 2.0 * part) * way
     return ahead + part * rest * (rest * at_start - part * at_end)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...admissible import Interval, angles_held
 from ...errors import TensionError
 from ...filter.state import FilterState, interval_of
 from ...load import Load
@@ -17,7 +18,7 @@ from ...regime import Regime
 from ...tensions import Tensions
 from ..arm import Arm
 from ..carried import Carried
-from ..joints import drive
+from ..joints import Driven, drive
 from ..shape import TipPose, tip_poses
 from .ensemble import JointSlips
 
@@ -142,17 +143,34 @@ class ArmFilterState:
 
         None while the arm is slack, and where smoothed tensions do not seat all joints.
         """
+        if self._driven is None:
+            return (None,) * len(self.joints)
+        return tuple(slip.margin_at(probe) for slip, probe in self._driven)
+
+    @property
+    def admissible_angles(self) -> list[list[Interval]]:
+        """Of each joint the intervals in rad in which friction can hold it, the others frozen.
+
+        Likewise; none where there is no margin.
+        """
+        if self._driven is None:
+            return [[] for _ in self.joints]
+        towards_s = (slip if slip.side > 0.0 else slip.mirrored() for slip, _ in self._driven)
+        return [angles_held(*both) for both in zip(towards_s, self.arm.stops, strict=True)]
+
+    @cached_property
+    def _driven(self) -> list[Driven] | None:
+        """Each joint as a single one, at the medians of all; None if they are not seated."""
         angles = self.bend_angles
         if angles is None:
-            return (None,) * len(self.joints)
+            return None
         carried = Carried(self.arm, self.load)
         pairs = [Tensions(joint.tension_l, joint.tension_s) for joint in self.joints]
         frozen = carried.frozen(list(angles))
         try:
-            driven = drive(carried, frozen, list(angles), pairs, [1.0] * len(angles))
+            return drive(carried, frozen, list(angles), pairs, [1.0] * len(angles))
         except TensionError:
-            return (None,) * len(self.joints)
-        return tuple(slip.margin_at(probe) for slip, probe in driven)
+            return None
 
     @cached_property
     def _tips(self) -> Floats:

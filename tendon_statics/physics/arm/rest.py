@@ -1,0 +1,66 @@
+"""Where a motion comes to rest: M = K of all joints that move, by Newton's method."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .excess import Look
+from .motion import ROUNDING, TOLERANCE, Motion
+
+Floats = NDArray[np.float64]
+
+NEAR = 0.02
+"""Way in rad from the place of rest, were the motion linear, within which this is tried"""
+
+TINY = 1e-6
+"""Way in rad that is left to Newton's method in any case"""
+
+
+def come_to_rest(motion: Motion, way: Floats, jacobian: Floats) -> bool:
+    """Go to where M = K for all that move; return False where that is not where they go.
+
+    Parameters
+    ----------
+    way : array
+        To where they would come to rest, were the motion linear.
+    jacobian : array
+        Of the motion, where it is.
+    """
+    total = np.zeros(len(way))
+    for index in range(12):
+        total = total + way
+        if not abs(total).max() <= 2.0 * NEAR:
+            return False
+        look = motion.after(total)
+        if any(abs(look.angles[joint]) > motion.stops[joint] for joint in motion.moving):
+            return False
+        velocity = motion.velocity(look)
+        if _is_small(motion, velocity, look):
+            motion.come_to_rest(look)
+            return True
+        if index:
+            jacobian = motion.jacobian(look)
+        way = -_solved(jacobian, velocity)
+        if index == 0 and not abs(way).max() <= TOLERANCE:
+            return False
+    return False
+
+
+def _is_small(motion: Motion, velocity: Floats, look: Look) -> bool:
+    """Whether M = K of all that move, to far less than what sets them moving."""
+    return all(
+        abs(excess)
+        <= max(0.01 * ROUNDING * look.capacity(joint, side)[0], 0.5 * motion.rounding[joint])
+        for (joint, side), excess in zip(motion.moving.items(), velocity.tolist(), strict=True)
+    )
+
+
+def _solved(matrix: Floats, values: Floats) -> Floats:
+    """Solve a linear equation; infinite where it cannot be."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, values), np.float64)
+    except np.linalg.LinAlgError:
+        return np.full(len(values), math.inf)
