@@ -121,7 +121,9 @@ def test_what_ros_does_not_take_of_its_own_parameters_no_verb_takes(unit, line):
 def test_the_node_refuses_the_same_values_of_ros_own_parameters(unit):
     for line in OF_ROS:
         path = unit(line)
-        with Program.running('estimator', '--ros-args', '--params-file', str(path)) as program:
+        with ForkedProgram.running(
+            'estimator', '--ros-args', '--params-file', str(path)
+        ) as program:
             assert program.wait() == 1, line
 
 
