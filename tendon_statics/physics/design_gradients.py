@@ -13,6 +13,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 from .design import DesignParameter, JointDesign, design_parameters
@@ -72,8 +73,7 @@ def answer_derivatives(
         value = getattr(design, parameter.name)
 
         def answer(change: float) -> SlipAnswer:
-            other = dataclasses.replace(design, **{parameter.name: value + change})
-            return ask(other, load, bend_angle)
+            return ask(_changed(design, parameter.name, value + change), load, bend_angle)
 
         return answer
 
@@ -95,6 +95,13 @@ def answer_derivatives(
     if not all(map(math.isfinite, (*angles.values(), *pressures.values()))):
         return None
     return angles, pressures
+
+
+@lru_cache(256)
+def _changed(design: JointDesign, name: str, value: float) -> JointDesign:
+    """Return a design with another number; every sample of a unit asks for the same ones."""
+    other: dict[str, Any] = {name: value}
+    return dataclasses.replace(design, **other)
 
 
 def excess_by_design(

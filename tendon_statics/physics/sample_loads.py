@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from .array_roots import Floats
 from .design import JointDesign
 from .load import DeadLoad, Load
+from .stacked_design import StackedDesign
 from .tensions import NEGLIGIBLE_PULL
 
 
@@ -62,7 +63,7 @@ class SampleLoads(NamedTuple):
         )
         return cls(gravity_x, gravity_z, force_x, force_z, load.tip_distance)
 
-    def on(self, design: JointDesign) -> DeadLoad:
+    def on(self, design: JointDesign | StackedDesign) -> DeadLoad:
         """Return the forces and moments that they mean for one unit, in arrays."""
         weight, lever = design.weight, design.com_distance
         weight_x, weight_z = weight * self.gravity_x, weight * self.gravity_z
@@ -73,7 +74,7 @@ class SampleLoads(NamedTuple):
             lever * weight_z + self.distance * self.force_z,
         )
 
-    def part(self, which: NDArray[np.bool_]) -> SampleLoads:
+    def part(self, which: NDArray[np.bool_] | NDArray[np.intp]) -> SampleLoads:
         """Return those of some of the samples."""
         return SampleLoads(
             self.gravity_x[which],
@@ -100,7 +101,7 @@ class SampleLoads(NamedTuple):
         return found
 
 
-def seating_tension(design: JointDesign, dead: DeadLoad) -> Any:
+def seating_tension(design: JointDesign | StackedDesign, dead: DeadLoad) -> Any:
     """Sum of the tensions in N that has to be exceeded so that the joint is seated.
 
     It is what `taut_slip` asks for, for a dead load of floats or of arrays.

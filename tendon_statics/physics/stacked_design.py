@@ -25,7 +25,7 @@ class StackedDesign:
 
     def __init__(self, designs: Sequence[JointDesign]) -> None:
         def of_all(name: str) -> Any:
-            return _stacked([getattr(design, name) for design in designs])
+            return stacked([getattr(design, name) for design in designs])
 
         self.ball_radius = of_all('ball_radius')
         self.friction_coefficient = of_all('friction_coefficient')
@@ -38,17 +38,19 @@ class StackedDesign:
         self.law: ContactLaw = of_all('law')
 
 
-def _stacked(parts: Sequence[Any]) -> Any:
-    """Stack what several designs have in one place."""
+def stacked(parts: Sequence[Any]) -> Any:
+    """Return what several designs have in one place, each number an array.
+
+    A number that is the same in all of them stays a float.
+    """
     first = parts[0]
     if isinstance(first, ContactLaw):
         law = object.__new__(type(first))
         law.__dict__ = {
-            name: _stacked([part.__dict__[name] for part in parts]) for name in first.__dict__
+            name: stacked([part.__dict__[name] for part in parts]) for name in first.__dict__
         }
         law.is_stacked = True
         return law
     if isinstance(first, tuple):
-        stacked = [_stacked(of_one) for of_one in zip(*parts, strict=True)]
-        return type(first)(*stacked)
+        return type(first)(*(stacked(of_one) for of_one in zip(*parts, strict=True)))
     return first if all(part == first for part in parts) else np.array(parts)

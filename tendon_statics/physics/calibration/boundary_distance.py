@@ -27,6 +27,7 @@ from ..load import UPRIGHT, Load
 from ..loaded_joint import LoadedJoint
 from ..sample_loads import SampleLoads, seating_tension
 from ..slip import Slip
+from ..stacked_design import StackedDesign
 from .load_cells import AS_MEASURED, LoadCells
 
 
@@ -42,7 +43,7 @@ class Noise(NamedTuple):
 
 
 class BoundaryDistance(NamedTuple):
-    """Distances of samples from the boundary of slip; arrays of shape ``(n,)``."""
+    """Distances of samples from the boundary of slip; arrays of the shape of the samples."""
 
     excess: Floats
     """e in N"""
@@ -55,7 +56,7 @@ class BoundaryDistance(NamedTuple):
 
 
 def boundary_distance(
-    design: JointDesign,
+    design: JointDesign | StackedDesign,
     tension_l: Floats,
     tension_s: Floats,
     bend_angle: Floats,
@@ -68,6 +69,9 @@ def boundary_distance(
 
     Parameters
     ----------
+    design : JointDesign or StackedDesign
+        Of several designs, to whose boundaries it is then measured, samples are in columns of
+        shape ``(n, 1)``.
     tension_l, tension_s, bend_angle : ndarray
         Samples in N and rad, as measured. Where the tensions do not seat the joint the result is
         NaN.

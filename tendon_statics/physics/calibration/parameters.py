@@ -10,7 +10,7 @@ import numpy as np
 
 from ..array_roots import Floats
 from ..design import DesignParameter, JointDesign, design_parameters
-from ..errors import CalibrationError
+from ..errors import CalibrationError, DesignError
 from .load_cells import AS_MEASURED, CELL_PARAMETERS, LoadCells
 
 if TYPE_CHECKING:
@@ -127,6 +127,13 @@ class ParameterSpace:
                 )
             }
         )
+
+    def model_if_any(self, scaled: Floats) -> Model | None:
+        """Return the model with the parameters, None where they do not fit together."""
+        try:
+            return self.model_at(scaled)
+        except DesignError:
+            return None
 
     def starting_at(self, name: str, value: float) -> Floats:
         """The start with another value for one parameter, within its bounds, scaled."""

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..array_roots import Floats
-from ..errors import CalibrationError, DesignError
+from ..errors import CalibrationError
 from .boundary_distance import BoundaryDistance
 from .identifiability import (
     LOSS_SCALE,
@@ -31,6 +31,9 @@ AT_BOUND = 1e-12
 
 MOST_DESIGNS = 2000
 """Tried in one search, after which it must have ended"""
+
+MOST_AT_ONCE = 20_000
+"""Samples times models of which distances are found at once: more take memory and gain no time"""
 
 LARGEST_SCALE = 100.0
 """Of the noise as it is to that which is stated, beyond which something else is wrong"""
@@ -161,7 +164,7 @@ class Problem:
         return scatter_scale(self.equations(), self.degrees_of_freedom())
 
     def _residuals(self, scaled: Floats) -> Floats:
-        """All equations and inequalities, in units of noise.
+        """All equations and inequalities, in units of noise; of each model of several a column.
 
         They are NaN where there is no such design, from which the search turns back.
         """
@@ -177,26 +180,33 @@ class Problem:
 
     def _hold_excesses(self, scaled: Floats) -> Floats:
         if not self.samples.counts['holds']:
-            return np.zeros(0)
+            return np.zeros((0, *scaled.shape[:-1]))
         held = self._distance(scaled, self.samples.held).standardised
         return self.samples.hold_excesses(held, self.noise_scale)
 
     def _distance(self, scaled: Floats, of: NDArray[np.bool_]) -> BoundaryDistance:
-        try:
-            model = self.space.model_at(scaled)
-        except DesignError:
-            return BoundaryDistance(*(np.full((4, int(of.sum())), math.nan)))
-        return self.samples.distance(model, of)
+        """Distances of shape ``(n,)``; of models in the rows of `scaled` one in each column."""
+        rows = np.atleast_2d(scaled)
+        models = [self.space.model_if_any(row) for row in rows]
+        there = [model for model in models if model is not None]
+        found = np.full((4, int(of.sum()), len(rows)), math.nan)
+        if there:
+            is_there = np.array([model is not None for model in models])
+            for values, known in zip(found, self.samples.distances(there, of), strict=True):
+                values[:, is_there] = known
+        return BoundaryDistance(*(found if scaled.ndim > 1 else found[:, :, 0]))
 
     def _jacobian(self, function: Callable[[Floats], Floats], scaled: Floats) -> Floats:
         """Derivatives by the scaled parameters, from central differences; 0 for no number."""
-        columns = []
-        for index, value in enumerate(scaled):
-            ends = np.stack([scaled, scaled])
-            step = 1e-5 * max(abs(value), 1.0)
-            low, high = (bound[index] for bound in self.space.bounds)
-            ends[:, index] = max(value - step, low), min(value + step, high)
-            change = function(ends[1]) - function(ends[0])
-            columns.append(change / (ends[1, index] - ends[0, index]))
-        jacobian: Floats = np.nan_to_num(np.stack(columns, axis=1))
+        low, high = self.space.bounds
+        step = 1e-5 * np.maximum(abs(scaled), 1.0)
+        below, above = np.maximum(scaled - step, low), np.minimum(scaled + step, high)
+        count, own = len(scaled), np.eye(len(scaled), dtype=bool)
+        ends = np.concatenate([np.where(own, end, scaled) for end in (below, above)])
+        at_once = max(1, MOST_AT_ONCE // len(self.samples.tension_l))
+        values = np.concatenate(
+            [function(ends[i : i + at_once]) for i in range(0, len(ends), at_once)], axis=1
+        )
+        change = values[:, count:] - values[:, :count]
+        jacobian: Floats = np.nan_to_num(change / (above - below))
         return jacobian

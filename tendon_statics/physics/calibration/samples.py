@@ -13,6 +13,7 @@ from ..design import JointDesign
 from ..errors import CalibrationError
 from ..load import UPRIGHT, Load
 from ..sample_loads import SampleLoads, seating_tension
+from ..stacked_design import StackedDesign, stacked
 from ..tensions import MAX_TENSION
 from .boundary_distance import BoundaryDistance, Noise, boundary_distance
 from .measured import Samples
@@ -189,15 +190,24 @@ class SortedSamples:
 
     def distance(self, model: Model, of: NDArray[np.bool_]) -> BoundaryDistance:
         """Distance of some of the samples from the boundary of a model."""
+        return BoundaryDistance(*(values[:, 0] for values in self.distances([model], of)))
+
+    def distances(self, models: Sequence[Model], of: NDArray[np.bool_]) -> BoundaryDistance:
+        """Distance of some of the samples from the boundaries of models.
+
+        Shape ``(n, models)``, or ``(n, 1)`` if it is the same from all.
+        """
+        column = np.flatnonzero(of)[:, np.newaxis]
+        designs = [model.design for model in models]
         return boundary_distance(
-            model.design,
-            self.tension_l[of],
-            self.tension_s[of],
-            self.bend_angle[of],
-            self.pressure[of],
+            StackedDesign(designs) if len(designs) > 1 else designs[0],
+            self.tension_l[column],
+            self.tension_s[column],
+            self.bend_angle[column],
+            self.pressure[column],
             self.noise,
-            self.loads.part(of),
-            model.cells,
+            self.loads.part(column),
+            stacked([model.cells for model in models]),
         )
 
     def hold_excesses(self, held_distances: Floats, scale: float) -> Floats:
@@ -206,14 +216,15 @@ class SortedSamples:
         Parameters
         ----------
         held_distances : ndarray
-            Of the held samples from the boundary, in standard deviations of the stated noise.
+            Of the held samples from the boundary, in standard deviations of the stated noise; of
+            several models one in each column.
         scale : float
             What the noise is, as a multiple of the stated.
         """
         if not len(held_distances):
             return held_distances
         farthest = np.maximum.reduceat(held_distances, self._first_of_hold)
-        excesses: Floats = np.maximum(farthest - scale * self._explained, 0.0)
+        excesses: Floats = np.maximum(farthest.T - scale * self._explained, 0.0).T
         return excesses
 
 
