@@ -30,7 +30,7 @@ def test_a_quantity_is_read_with_each_of_its_units(quantity):
         ('TensionS [mN]', r'tension_s \[mN\]'),
         ('bend angle', 'bend_angle or'),
         ('Bend-Angle [deg] {raw}', r'bend_angle \[deg\]'),
-        ('State', 'state;'),
+        ('State', 'state, or say --columns state="State"'),
     ],
 )
 def test_what_would_be_overlooked_is_refused_with_the_way_to_write_it(title, hint):

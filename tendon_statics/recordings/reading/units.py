@@ -115,7 +115,11 @@ class Quantities:
             raise RecordingError(
                 f'the unit of {quantity} is {unit!r}, which is not known; there are '
                 + ', '.join(units)
-                + (' (--columns time=TITLE names another column)' if is_time else '')
+                + (
+                    ' (--columns time=TITLE names another column)'
+                    if is_time
+                    else f' (--units {quantity}=UNIT says which it is in)'
+                )
             )
         return units[unit]
 
