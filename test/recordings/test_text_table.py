@@ -342,3 +342,11 @@ def test_titles_with_commas_blanks_and_quotes_can_be_named(file):
         done = run('replay', path, '--columns', f'tension_l={left},tension_s=F=2')
         assert done.returncode == 0, done.stderr
         assert '2 samples' in done.stdout
+
+
+def test_titles_that_nothing_known_separates_name_the_option(file):
+    path = file('time:tension_l:tension_s\n0:1:1.5\n1:1:1.6\n')
+    with pytest.raises(RecordingError, match='--separator CHARACTER'):
+        load_recording(path)
+    recording = load_recording(path, table=TableOptions(separator=':')).whole()
+    assert recording.tensions() == PAIRS

@@ -104,6 +104,8 @@ def _there(titles: Sequence[str], needed: Sequence[str]) -> str:
             'but the first line has numbers in place of titles; put titles above it, such as '
             + ','.join(needed)
         )
+    if len(there) == 1 and all(name in there[0] for name in needed):
+        return f'there is: {there[0]} (--separator CHARACTER says what separates them)'
     missing = ','.join(f'{name}=TITLE' for name in needed if name not in there)
     return f'there are: {", ".join(there) or "none"} (--columns {missing} names them)'
 
