@@ -350,3 +350,11 @@ def test_titles_that_nothing_known_separates_name_the_option(file):
         load_recording(path)
     recording = load_recording(path, table=TableOptions(separator=':')).whole()
     assert recording.tensions() == PAIRS
+
+
+def test_what_has_no_titles_as_ros2_topic_echo_writes_it_is_said(file):
+    path = file(
+        '1795737600,0,base,cable_l,cable_s,1.0,1.5\n1795737600,5,base,cable_l,cable_s,1,1\n'
+    )
+    with pytest.raises(RecordingError, match='first line has numbers in place of titles'):
+        load_recording(path)

@@ -99,7 +99,8 @@ def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> 
 def _there(titles: Sequence[str], needed: Sequence[str]) -> str:
     """Say which columns there are instead, and what to do."""
     there = [title for title in titles if title]
-    if there and all(_ONLY_NUMBERS.fullmatch(title) for title in there):
+    numbers = sum(bool(_ONLY_NUMBERS.fullmatch(title)) for title in there)
+    if there and 2 * numbers >= len(there):
         return (
             'but the first line has numbers in place of titles; put titles above it, such as '
             + ','.join(needed)
