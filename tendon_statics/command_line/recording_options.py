@@ -275,5 +275,6 @@ def _pairs(text: str) -> dict[str, str]:
             raise argparse.ArgumentTypeError(f'{part!r} is not NAME=VALUE')
         if name in pairs:
             raise argparse.ArgumentTypeError(f'{name} is given twice')
-        pairs[name] = value.strip()
+        value = value.strip()
+        pairs[name] = value[1:-1] if re.fullmatch('".+"', value) else value
     return pairs

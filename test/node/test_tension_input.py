@@ -101,6 +101,29 @@ def test_joint_states_of_one_cable_each_are_joined(driver):
 
 
 @pytest.mark.parametrize('driver', ['joint_state'], indirect=True)
+def test_publishers_of_one_cable_each_that_send_many_at_once_lose_nothing(driver):
+    """Ten of one, and then ten of the other, with equal stamps, as a bus may deliver them."""
+    other = driver.create_publisher(JointState, 'tensions', 1000)
+    with driver.estimator(*reliable_input('joint_state')):
+        wait_for('the other publisher', lambda: other.get_subscription_count() > 0)
+        sent = driver.get_clock().now().nanoseconds // 10**9
+        for first in range(0, 50, 10):
+            for publisher, name, effort in (
+                (driver.tension_publishers[0], 'cable_l', 1.0),
+                (other, 'cable_s', 1.5),
+            ):
+                for number in range(first, first + 10):
+                    header = Header(stamp=Time(sec=sent, nanosec=number * 10_000_000))
+                    values = [effort + 0.001 * number]
+                    publisher.publish(JointState(header=header, name=[name], effort=values))
+        wait_for('the estimates', lambda: len(driver.estimates) == 50)
+        pairs = [(of.tension_l, of.tension_s) for of in driver.estimates]
+        assert pairs == [(1.0 + 0.001 * number, 1.5 + 0.001 * number) for number in range(50)]
+        dropped = {key: of for key, of in latest_values(driver).items() if 'dropped:' in key}
+        assert set(dropped.values()) == {'0'}
+
+
+@pytest.mark.parametrize('driver', ['joint_state'], indirect=True)
 def test_what_others_publish_on_the_topic_is_passed_over(driver):
     """With the very stamps of ours, and before and after them; the case of two_sources."""
     reliable = reliable_input('joint_state')

@@ -164,3 +164,7 @@ def test_of_two_that_send_each_cable_with_equal_stamps_the_first_counts(tmp_path
     assert len(pairs) == 20
     assert Counter(filter(None, recording.known_faults)) == Counter(drops)
     assert set(drops) == {'repeated stamp'}
+    assert (
+        'of cable_l are that of the message before, which counts (--clock log'
+        in recording.notes[0]
+    )

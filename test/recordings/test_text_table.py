@@ -309,3 +309,52 @@ def test_an_option_that_does_not_fit_the_table_is_refused(file, options, named):
 @pytest.mark.parametrize('text', ['a', 'tension_l=', '=a', 'tension_l=a,tension_l=b'])
 def test_pairs_of_an_option_that_are_none_are_refused(text):
     assert run('replay', 'x.csv', '--columns', text).returncode == 2
+
+
+@pytest.mark.parametrize(
+    'title',
+    [
+        *('Kraft links / mN', 'Fz1/mN', 'Fz1 in mN', 'Fz1, mN', 'Fz1 (mN)', 'Fz1 [mN]'),
+        *('Fz1 (Millinewton)', 'F 1 / millinewtons'),
+    ],
+)
+def test_the_unit_of_a_title_that_is_named_counts_however_it_stands_there(file, title):
+    path = file(f'time;{title};tension_s\n0;1000;1.5\n1;1000;1.6\n')
+    for name in (title, re.split(r'[,/(\[]| in ', title)[0].strip()):
+        recording = load_recording(path, table=TableOptions(columns={'tension_l': name})).whole()
+        assert recording.tensions() == PAIRS
+
+
+@pytest.mark.parametrize('title', ['F (kg)', 'F [lbf]', 'F / g', 'F in oz', 'F (kg force)'])
+def test_a_unit_that_is_not_read_is_not_taken_for_newtons_until_an_option_says_so(file, title):
+    path = file(f'time;{title};tension_s\n0;1;1.5\n1;1;1.6\n')
+    columns = {'tension_l': title}
+    if title != 'F (kg force)':  # no unit by any name
+        with pytest.raises(RecordingError, match=r'not known.*--units tension_l=UNIT'):
+            load_recording(path, table=TableOptions(columns=columns))
+    said = TableOptions(columns=columns, units={'tension_l': 'N'})
+    assert load_recording(path, table=said).whole().tensions() == PAIRS
+
+
+def test_titles_with_commas_blanks_and_quotes_can_be_named(file):
+    path = file('time,"Force, left (N)",F=2\n0,1,1.5\n1,1,1.6\n')
+    for left in ('Force, left (N)', '"Force, left (N)"'):
+        done = run('replay', path, '--columns', f'tension_l={left},tension_s=F=2')
+        assert done.returncode == 0, done.stderr
+        assert '2 samples' in done.stdout
+
+
+def test_titles_that_nothing_known_separates_name_the_option(file):
+    path = file('time:tension_l:tension_s\n0:1:1.5\n1:1:1.6\n')
+    with pytest.raises(RecordingError, match='--separator CHARACTER'):
+        load_recording(path)
+    recording = load_recording(path, table=TableOptions(separator=':')).whole()
+    assert recording.tensions() == PAIRS
+
+
+def test_what_has_no_titles_as_ros2_topic_echo_writes_it_is_said(file):
+    path = file(
+        '1795737600,0,base,cable_l,cable_s,1.0,1.5\n1795737600,5,base,cable_l,cable_s,1,1\n'
+    )
+    with pytest.raises(RecordingError, match='first line has numbers in place of titles'):
+        load_recording(path)

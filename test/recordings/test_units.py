@@ -30,7 +30,7 @@ def test_a_quantity_is_read_with_each_of_its_units(quantity):
         ('TensionS [mN]', r'tension_s \[mN\]'),
         ('bend angle', 'bend_angle or'),
         ('Bend-Angle [deg] {raw}', r'bend_angle \[deg\]'),
-        ('State', 'state;'),
+        ('State', 'state, or say --columns state="State"'),
     ],
 )
 def test_what_would_be_overlooked_is_refused_with_the_way_to_write_it(title, hint):
@@ -70,3 +70,15 @@ def test_cables_of_an_arm_are_read_by_their_names_and_not_overlooked():
             arm.parse(title)
     with pytest.raises(RecordingError, match='a cable of the arm is called time'):
         of_arm(arm_of('time', 's'))
+
+
+@pytest.mark.parametrize(
+    ('title', 'factor'),
+    [
+        *(('tension_l [Newton]', 1.0), ('tension_l [millinewtons]', 1e-3)),
+        *(('bend_angle [degrees]', np.radians(1.0)), ('bend_angle [Radians]', 1.0)),
+        *(('pressure [kilopascals]', 1e3), ('time [seconds]', 1.0)),
+    ],
+)
+def test_a_unit_may_be_written_out(title, factor):
+    assert OF_UNIT.parse(title) == (title.partition(' ')[0], pytest.approx(factor))

@@ -71,8 +71,11 @@ class TensionMessages:
             for cable, of in zip(cables, value.values or (), strict=bool(value.values)):
                 if of is not None:
                     found[cable].append(places[message.order])
-        told = {cable: of for cable, of in found.items() if of}
-        return {} if len({*map(tuple, told.values())}) < 2 else told
+        alike: dict[tuple[int, ...], list[str]] = {}
+        for cable, at in found.items():
+            alike.setdefault(tuple(at), []).append(cable)
+        alike.pop((), None)
+        return {_listed(names): [*at] for at, names in alike.items()} if len(alike) > 1 else {}
 
 
 def find_tensions(bag: Messages, names: Sequence[str], topics: BagTopics) -> TensionMessages:
@@ -173,7 +176,7 @@ def _nothing(
 
 
 def _listed(names: Sequence[str]) -> str:
-    return ' and '.join([', '.join(names[:-1]), names[-1]])
+    return ' and '.join(filter(None, [', '.join(names[:-1]), names[-1]]))
 
 
 def tension_samples(

@@ -88,6 +88,19 @@ class Stamped(NamedTuple):
                 found += stream.steps_back(name)
         return found
 
+    def repeated(self, topic: str) -> list[str]:
+        """Say which of sound stamps are no later than the one before, so that the first counts."""
+        counts = (
+            (name, int((np.diff(stream.stamps) == 0).sum()), len(stream.stamps))
+            for name, stream in self.by_stream(topic)
+        )
+        return [
+            f'{repeated} of {count} stamps on {name} are that of the message before, which counts '
+            '(--clock log takes all)'
+            for name, repeated, count in counts
+            if repeated
+        ]
+
     def come_late(self, topic: str) -> list[str]:
         """Say where the stamps of sound streams go back, since messages came late."""
         return [
@@ -181,7 +194,8 @@ def common_clock(topics: Mapping[str, Stamped], clock: str, max_skew: int) -> Cl
             continue
         by_stamp.append(topic)
         notes += objections or [
-            jump for name, stream in times.by_stream(topic) for jump in stream.jumps(name)
+            *times.repeated(topic),
+            *(jump for name, stream in times.by_stream(topic) for jump in stream.jumps(name)),
         ]
         if not objections:
             rising.add(topic)

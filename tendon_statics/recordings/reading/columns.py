@@ -15,12 +15,16 @@ from .time_titles import (
     place_of_nanoseconds,
     time_unit,
 )
-from .units import Quantities, split_title
+from .units import Quantities, common_unit, split_title
 
 _ONLY_NUMBERS = re.compile(r'[-+.,;|\s\deE]*\d[-+.,;|\s\deE]*')
 """One, or several in a line whose separator the titles do not tell"""
 
-_ROUND_BRACKETS = re.compile(r'(.*?)\s*\(\s*([^()]*?)\s*\)')
+_LOOSE_UNIT = re.compile(
+    r'(?P<name>.*?[^\W_].*?)\s*(?:\(\s*(?P<inside>[^()]*?)\s*\)'
+    r'|(?:\s*/\s*|,\s*|\s+in\s+)(?P<after>[^\W\d_]+|°))'
+)
+"""A title with a unit in round brackets or after a stroke, a comma or ``in``"""
 
 
 class Column(NamedTuple):
@@ -58,7 +62,7 @@ def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> 
     quantities = options.quantities
     found: dict[str, Column] = {}
     for quantity, title in options.columns.items():
-        found[quantity] = _named(quantity, title, titles, quantities)
+        found[quantity] = _named(quantity, title, titles, options)
     named = {column.place for column in found.values()}
     by_itself: set[str] = set()
     for place, title in enumerate(titles):
@@ -95,23 +99,27 @@ def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> 
 def _there(titles: Sequence[str], needed: Sequence[str]) -> str:
     """Say which columns there are instead, and what to do."""
     there = [title for title in titles if title]
-    if there and all(_ONLY_NUMBERS.fullmatch(title) for title in there):
+    numbers = sum(bool(_ONLY_NUMBERS.fullmatch(title)) for title in there)
+    if there and 2 * numbers >= len(there):
         return (
             'but the first line has numbers in place of titles; put titles above it, such as '
             + ','.join(needed)
         )
+    if len(there) == 1 and all(name in there[0] for name in needed):
+        return f'there is: {there[0]} (--separator CHARACTER says what separates them)'
     missing = ','.join(f'{name}=TITLE' for name in needed if name not in there)
     return f'there are: {", ".join(there) or "none"} (--columns {missing} names them)'
 
 
-def _named(quantity: str, title: str, titles: Sequence[str], quantities: Quantities) -> Column:
+def _named(quantity: str, title: str, titles: Sequence[str], options: TableOptions) -> Column:
     """Return the column that an option names.
 
     Raises
     ------
     RecordingError
-        If there is none, or more than one.
+        If there is none, or more than one, or it is in a unit that is not read.
     """
+    quantities = options.quantities
     places = [place for place, name in enumerate(titles) if title == name]
     places = places or [
         place
@@ -127,19 +135,26 @@ def _named(quantity: str, title: str, titles: Sequence[str], quantities: Quantit
     unit = _split(titles[places[0]], quantity, quantities)[1]
     if unit is None or not quantities.has_units(quantity):
         return Column(places[0], 1.0)
+    if quantity in options.units and unit not in quantities.kinds[quantity].units:
+        return Column(places[0], 1.0)  # What the option says counts.
     return Column(places[0], quantities.factor(quantity, unit), has_unit=True)
 
 
 def _split(title: str, quantity: str, quantities: Quantities) -> tuple[str, str | None]:
-    """Split a title into name and unit, which here may stand in round brackets too."""
+    """Split a title into name and unit, which of a named column may stand in other ways too.
+
+    What is another program's name of a unit is one as well, though it may not be read.
+    """
     name, unit = split_title(title)
-    round_ones = _ROUND_BRACKETS.fullmatch(title.strip())
-    if unit is not None or round_ones is None or not quantities.has_units(quantity):
+    loose = _LOOSE_UNIT.fullmatch(title.strip())
+    if unit is not None or loose is None or not quantities.has_units(quantity):
         return name, unit
-    name, unit = round_ones.groups()
-    known = time_unit(unit) is not None if quantity == 'time' else None
-    is_unit = unit in quantities.kinds[quantity].units if known is None else known
-    return (name, unit) if is_unit else (title.strip(), None)
+    kind = quantities.kinds[quantity]
+    unit = loose['after'] if loose['inside'] is None else loose['inside']
+    known = time_unit(unit) if quantity == 'time' else common_unit(unit, kind)
+    if known is None and unit.casefold() not in kind.foreign.casefold().split():
+        return title.strip(), None
+    return loose['name'], known or unit
 
 
 def _with_unit(unit: str, factor: float, column: Column, titles: Sequence[str]) -> Column:

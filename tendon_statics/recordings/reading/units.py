@@ -108,14 +108,18 @@ class Quantities:
         RecordingError
             If it is no unit of that quantity.
         """
-        units, is_time = self.kinds[quantity].units, self.kinds[quantity] is TIME
-        if is_time:
-            unit = time_unit(unit) or unit
+        kind = self.kinds[quantity]
+        units, is_time = kind.units, kind is TIME
+        unit = (time_unit(unit) if is_time else common_unit(unit, kind)) or unit
         if unit not in units:
             raise RecordingError(
                 f'the unit of {quantity} is {unit!r}, which is not known; there are '
                 + ', '.join(units)
-                + (' (--columns time=TITLE names another column)' if is_time else '')
+                + (
+                    ' (--columns time=TITLE names another column)'
+                    if is_time
+                    else f' (--units {quantity}=UNIT says which it is in)'
+                )
             )
         return units[unit]
 
