@@ -16,7 +16,7 @@ from .words import LAST_KNOWN, REGIMES, bullets, degrees_between, headline, numb
 
 MEANINGS = {
     Regime.SLACK: 'A joint has no tension on one side: nothing is said of any joint.',
-    Regime.DRIVEN_TO_STOP: 'Pressed on its stop. What is not named, friction holds.',
+    Regime.DRIVEN_TO_STOP: 'Pressed on its stop.',
     Regime.SLIPPING: 'Has slipped to where friction holds it again.',
     Regime.HELD: 'Friction holds every joint where it is.',
 }
@@ -82,7 +82,7 @@ def _cells(joint: JointSaid, line: str, *, present: bool) -> Iterator[str]:
     name = REGIMES[regime][0] if regime else joint.regime
     share = f' <small>{100.0 * joint.probability:.0f} %</small>'
     yield (
-        f'<nobr><span style="color:{colour}">&#9679;</span> {escape(name)}</nobr>'
+        f'<span class="whole"><span style="color:{colour}">&#9679;</span> {escape(name)}</span>'
         f'{share if math.isfinite(joint.probability) else ""}'
     )
     angle = number(math.degrees(joint.angle), '.2f', '°')
