@@ -46,9 +46,12 @@ def take(browser: Browser, path: Path, condition: str, *, is_arm: bool) -> None:
         )
         shot = BytesIO(page.screenshot(full_page=True))
         page.close()
-    # Few colours, of which the rare ones count too: those of the regimes.
-    method = Image.Quantize.MAXCOVERAGE
-    Image.open(shot).convert('RGB').quantize(256, method).save(path, optimize=True)
+    picture = Image.open(shot).convert('RGB')
+    # Areas keep their colours; only what softens the edges of letters has to take the nearest.
+    counts = sorted(picture.getcolors(picture.width * picture.height), reverse=True)
+    palette = Image.new('P', (1, 1))
+    palette.putpalette([part for _, colour in counts[:256] for part in colour])
+    picture.quantize(palette=palette, dither=Image.Dither.NONE).save(path, optimize=True)
     print(f'{path.name}: {path.stat().st_size / 1024:.0f} kB')
 
 
