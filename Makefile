@@ -72,7 +72,7 @@ measure-view: setup ## Measure what the live page costs at 500 Hz, in a real bro
 	@$(run) python tools/measure_view.py $(ARGS)
 
 .PHONY: picture
-picture: setup ## Make again the picture of the live page in docs/, in a real browser
+picture: setup ## Make again the pictures of the live page in docs/, in a real browser
 	@$(run) python tools/make_view_picture.py
 
 .PHONY: bench

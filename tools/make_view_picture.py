@@ -13,20 +13,17 @@ from playwright.sync_api import Browser
 
 DOCS = Path(__file__).resolve().parents[1] / 'docs'
 
-SAMPLES = 500
-"""Drawn before a picture is taken, of which most of a minute has room"""
-
 OF_UNIT = """
-  data("history").time.length > SAMPLES && data("body").angle.length > 0 &&
+  data("history").time.length > 500 && data("body").angle.length > 0 &&
     Number.isFinite(data("history").slip_margin.at(-1))
 """
-"""Whether there is a minute to see, and a unit at an angle"""
+"""Whether most of a minute is to be seen, and a unit at an angle"""
 
 OF_ARM = """
-  data("arm_history")?.time.length > SAMPLES &&
+  data("arm_history")?.time.length > 250 &&
     Math.abs(data("arm_history").tip_x.at(-1)) > 10
 """
-"""Whether there is a minute to see, and an arm that is bent"""
+"""Whether most of a minute is to be seen, and an arm that is bent"""
 
 
 def main() -> None:
@@ -43,15 +40,18 @@ def take(browser: Browser, path: Path, condition: str, *, is_arm: bool) -> None:
         page.goto(rig.url)
         page.wait_for_function(
             'window.Bokeh && Bokeh.documents.length > 0 && ((data) => '
-            f'{condition.replace("SAMPLES", str(SAMPLES))})'
+            f'{condition})'
             '((name) => Bokeh.documents[0].get_model_by_name(name)?.data)',
-            timeout=120e3,
+            timeout=300e3,
         )
         shot = BytesIO(page.screenshot(full_page=True))
         page.close()
-    # Few colours, of which the rare ones count too: those of the regimes.
-    method = Image.Quantize.MAXCOVERAGE
-    Image.open(shot).convert('RGB').quantize(256, method).save(path, optimize=True)
+    picture = Image.open(shot).convert('RGB')
+    # Areas keep their colours; only what softens the edges of letters has to take the nearest.
+    counts = sorted(picture.getcolors(picture.width * picture.height), reverse=True)
+    palette = Image.new('P', (1, 1))
+    palette.putpalette([part for _, colour in counts[:256] for part in colour])
+    picture.quantize(palette=palette, dither=Image.Dither.NONE).save(path, optimize=True)
     print(f'{path.name}: {path.stat().st_size / 1024:.0f} kB')
 
 

@@ -16,7 +16,7 @@ from .words import LAST_KNOWN, REGIMES, bullets, degrees_between, headline, numb
 
 MEANINGS = {
     Regime.SLACK: 'A joint has no tension on one side: nothing is said of any joint.',
-    Regime.DRIVEN_TO_STOP: 'Pressed on its stop. What is not named, friction holds.',
+    Regime.DRIVEN_TO_STOP: 'Pressed on its stop.',
     Regime.SLIPPING: 'Has slipped to where friction holds it again.',
     Regime.HELD: 'Friction holds every joint where it is.',
 }
@@ -71,7 +71,7 @@ def joints_table(estimate: Any, *, present: bool) -> str:
         f'<tr>{"".join(f"<td>{cell}</td>" for cell in _cells(joint, line, present=present))}</tr>'
         for joint, line in zip(joints, line_colours(len(joints)), strict=True)
     )
-    return f'<table class="joints"><tr>{heads}</tr>{rows}</table>'
+    return f'<div class="joints"><table><tr>{heads}</tr>{rows}</table></div>'
 
 
 def _cells(joint: JointSaid, line: str, *, present: bool) -> Iterator[str]:
@@ -82,12 +82,12 @@ def _cells(joint: JointSaid, line: str, *, present: bool) -> Iterator[str]:
     name = REGIMES[regime][0] if regime else joint.regime
     share = f' <small>{100.0 * joint.probability:.0f} %</small>'
     yield (
-        f'<nobr><span style="color:{colour}">&#9679;</span> {escape(name)}</nobr>'
+        f'<span style="color:{colour}">&#9679;</span> {escape(name)}'
         f'{share if math.isfinite(joint.probability) else ""}'
     )
     angle = number(math.degrees(joint.angle), '.2f', '°')
     if joint.interval:
-        angle += f' <small>{degrees_between(joint.interval)}</small>'
+        angle += f'<br><small>{degrees_between(joint.interval)}</small>'
     yield angle
     yield number(joint.slip_margin, '+.3f', '')
     yield number(joint.pressure, '.0f', '')

@@ -44,8 +44,9 @@ STYLE = """
   td small { color: #666; padding-left: 0.5rem; }
   ul { margin: 0.5rem 0 0; padding-left: 1.2rem; font-size: 0.9rem; }
   b { padding: 0.1rem 0.5rem; border-radius: 4px; color: #fff; background: #777777; }
-  .joints { font-size: 0.85rem; }
-  .joints th { padding: 0.1rem 0.5rem 0.1rem 0; } .joints td { padding-right: 0.5rem; }
+  .joints { overflow-x: auto; } .joints table { font-size: 0.8rem; }
+  .joints th, .joints td { padding: 0.15rem 0.4rem 0.15rem 0; vertical-align: top; }
+  .joints small { padding: 0; white-space: nowrap; }
   .level-ok { background: #00734f; } .level-warn { background: #9a6a00; }
   .level-error { background: #b34700; }
 """

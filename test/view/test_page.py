@@ -286,19 +286,19 @@ def test_invalid_and_stale_input_is_said(rig, browser):
 
 
 def test_a_page_that_is_opened_later_hears_what_holds(rig, browser):
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    said = []
     with rig.running('fifth', 'estimator'):
-        with rig.driving('fifth', tensions=PUBLISHED), LivePage(browser, rig.url) as page:
-            page.wait('model("estimator").options.includes("/fifth/estimator")')
-            page.choose('/fifth/estimator')
-            page.wait_for_words('17.14°')
-        latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        said = []
-        rig.node.create_subscription(String, '/fifth/estimator/regime', said.append, latched)
-        wait_for('the estimator to miss its tensions', lambda: said and said[-1].data == 'stale')
+        rig.node.create_subscription(
+            String, '/fifth/estimator/regime', lambda message: said.append(message.data), latched
+        )
+        with rig.driving('fifth', tensions=PUBLISHED):
+            wait_for('the estimator to have tensions', lambda: 'equilibrium' in said)
+        wait_for('the estimator to miss them', lambda: said[-1] == 'stale')
         with LivePage(browser, rig.url) as page:
             page.wait('model("estimator").options.includes("/fifth/estimator")')
             page.choose('/fifth/estimator')
-            page.wait_for_words('No valid tensions come any more')
+            page.wait_for_words('No valid tensions come any more', 'no estimate came')
 
 
 def test_a_regime_that_nobody_keeps_is_heard_too(rig, browser):
@@ -306,6 +306,7 @@ def test_a_regime_that_nobody_keeps_is_heard_too(rig, browser):
     with rig.running('sixth', 'estimator', *volatile), LivePage(browser, rig.url) as page:
         page.wait('model("estimator").options.includes("/sixth/estimator")')
         page.choose('/sixth/estimator')
+        page.wait_for_words('no estimate of it came yet')
         with rig.driving('sixth', tensions=PUBLISHED):
             page.wait_for_words('17.14°')
         page.wait_for_words('No valid tensions come any more')
