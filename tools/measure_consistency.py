@@ -153,8 +153,14 @@ def main() -> int:
             for _, program in zip(range(options.sessions), programs, strict=False)
         ]
         right += runs
-        deviations = [score.deviation for one in runs for score in (*one.onsets, *one.slides)]
-        deviation = float(np.nanmedian(deviations))
+        deviation = min(
+            float(np.nanmedian([score.deviation for score in scores]))
+            for scores in (
+                [score for one in runs for score in one.onsets],
+                [score for one in runs for score in one.slides],
+            )
+            if scores
+        )
         rows.append((unit, 'none', f'{1e3 * deviation:.1f}', *_row(runs)))
         if options.right:
             continue
