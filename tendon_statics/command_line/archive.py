@@ -22,7 +22,6 @@ from ..recordings.libraries import needed
 from ..recordings.reading.units import OF_UNIT
 from .archive_page import write_archive_page
 from .archive_study import Study, what_counts
-from .bag_options import topics_from
 from .calibration_options import add_calibration_options, check_calibration_options
 from .options import (
     add_design_option,
@@ -33,6 +32,7 @@ from .options import (
     unit_from,
 )
 from .progress import with_progress
+from .recording_bag_options import topics_from
 from .recording_options import add_reading_options, table_from
 from .replay_options import add_estimation_options, initial_bend_angle_from
 from .tables import Facts, fact_lines

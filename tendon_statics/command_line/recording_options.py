@@ -18,9 +18,9 @@ from ..recordings.reading.units import OF_UNIT, Quantities
 from ..recordings.recording import Recording
 from ..recordings.scaling import of_unit
 from ..recordings.session import Session
-from .bag_options import add_bag_options, topics_from
 from .options import unit_from
 from .progress import with_progress
+from .recording_bag_options import add_bag_options, topics_from
 
 
 def add_recording_options(parser: argparse.ArgumentParser) -> None:
