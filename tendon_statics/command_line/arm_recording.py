@@ -30,7 +30,10 @@ from .arm_options import add_arm_options, bend_angles_from, load_from
 from .options import UsageError, add_tension_stddev_option
 from .progress import with_progress
 from .recording_bag_options import DEFAULTS, TIP_WRENCH, add_common_bag_options, names_of
-from .recording_options import add_table_options, table_from
+from .recording_options import (
+    add_table_options,
+    table_from,
+)
 
 ARM_NODE = '/arm_estimator'
 
