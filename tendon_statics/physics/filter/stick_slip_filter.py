@@ -133,7 +133,8 @@ class StickSlipFilter(LaggedFilter[FilterState, Floats]):
         TensionError
             As `solve` does.
         ValueError
-            If the time is not finite, or not later than that before. What was known stays in both cases.
+            If the time is not finite, or not later than that before. What was known stays in both
+            cases.
         """
         tensions = check_tensions(tension_l, tension_s)
         self._check_time(time)
