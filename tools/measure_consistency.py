@@ -54,9 +54,8 @@ class Run(NamedTuple):
 
     found_after: float
     """Slips until the first alarm; infinite without one"""
-    slips: int
-    onsets: list[Score]
-    slides: list[Score]
+    slips: list[tuple[Score, ...]]
+    """Of each slip the scores of its onset and, if there was one, of its slide"""
     least: float
     """Lowest consistency"""
     seconds: float
@@ -84,9 +83,17 @@ def run(drawn: Session, fault: Fault, random: np.random.Generator) -> Run:
             least = min(least, judge.probability)
             if judge.probability < ALARM:
                 found_after = min(found_after, len(slips))
-    slides = [score for slip in slips if (score := slip.slide.score) is not None]
-    return Run(
-        found_after, len(slips), [slip.onset for slip in slips], slides, least, drawn.time[-1]
+    scores = [
+        tuple(score for score in (slip.onset, slip.slide.score) if score is not None)
+        for slip in slips
+    ]
+    return Run(found_after, scores, least, drawn.time[-1])
+
+
+def deviation_of(runs: list[Run]) -> float:
+    """Deviation of the boundary in N as one slip tells it, by the better of its scores."""
+    return float(
+        np.median([min(score.deviation for score in slip) for one in runs for slip in one.slips])
     )
 
 
@@ -153,8 +160,7 @@ def main() -> int:
             for _, program in zip(range(options.sessions), programs, strict=False)
         ]
         right += runs
-        deviations = [score.deviation for one in runs for score in (*one.onsets, *one.slides)]
-        deviation = float(np.nanmedian(deviations))
+        deviation = deviation_of(runs)
         rows.append((unit, 'none', f'{1e3 * deviation:.1f}', *_row(runs)))
         if options.right:
             continue
@@ -176,14 +182,13 @@ def main() -> int:
 
 
 def _row(runs: list[Run]) -> tuple[str, ...]:
-    scores = [
-        abs(score.value) for one in runs for score in (*one.onsets, *one.slides) if score.value
-    ]
+    slips = [slip for one in runs for slip in one.slips]
+    scores = [abs(score.value) for slip in slips for score in slip if score.value]
     after = [one.found_after for one in runs]
     found = [one for one in after if math.isfinite(one)]
     return (
         f'{np.median(scores):.1f}' if scores else '-',
-        f'{np.mean([one.slips for one in runs]):.0f}',
+        f'{len(slips) / len(runs):.0f}',
         f'{100.0 * len(found) / len(runs):.0f}',
         f'{100.0 * np.mean([one <= SLIPS for one in after]):.0f}',
         f'{np.median(found):.0f}, at most {max(found):.0f}' if found else '-',
@@ -194,13 +199,14 @@ def _print_right(runs: list[Run]) -> None:
     """Say how the scores are distributed while the model is right."""
     hours = sum(one.seconds for one in runs) / 3600.0
     alarms = sum(math.isfinite(one.found_after) for one in runs)
+    slips = [slip for one in runs for slip in one.slips]
     print(
-        f'\nWith the right model: {hours:.2f} h, {sum(one.slips for one in runs)} slips, '
+        f'\nWith the right model: {hours:.2f} h, {len(slips)} slips, '
         f'{alarms} false alarms, lowest consistency {min(one.least for one in runs):.1e}.'
     )
     for name, found in (
-        ('Onsets', [score.value for one in runs for score in one.onsets]),
-        ('Slides', [score.value for one in runs for score in one.slides]),
+        ('Onsets', [slip[0].value for slip in slips]),
+        ('Slides', [slip[1].value for slip in slips if len(slip) > 1]),
     ):
         if not found:
             continue

@@ -32,7 +32,8 @@ from .options import (
     unit_from,
 )
 from .progress import with_progress
-from .recording_options import add_reading_options, table_from, topics_from
+from .recording_bag_options import topics_from
+from .recording_options import add_reading_options, table_from
 from .replay_options import add_estimation_options, initial_bend_angle_from
 from .tables import Facts, fact_lines
 

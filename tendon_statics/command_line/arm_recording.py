@@ -34,12 +34,9 @@ from ..recordings.scaling import of_arm
 from .arm_options import add_arm_options, bend_angles_from, load_from
 from .options import UsageError, add_bend_angle_stddev_option, add_tension_stddev_option
 from .progress import with_progress
+from .recording_bag_options import DEFAULTS, TIP_WRENCH, add_common_bag_options, names_of
 from .recording_options import (
-    DEFAULTS,
-    TIP_WRENCH,
-    add_common_bag_options,
     add_table_options,
-    names_of,
     table_from,
 )
 from .tip_force_options import add_direction_option, add_level_option

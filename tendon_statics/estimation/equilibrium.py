@@ -6,7 +6,8 @@ from collections.abc import Mapping
 
 from ..physics import Regime, SlipAngleDistribution, slip_angle_distribution, solve
 from ..physics.kept import kept
-from .estimate import ExactEstimate, Interval, Remark, Sample
+from .estimate import Interval, Remark, Sample
+from .exact_estimate import ExactEstimate
 from .method import Method
 
 

@@ -6,7 +6,8 @@ import copy
 
 from ..physics import Equilibrium, Regime, StickSlipTracker
 from ..physics.noise_risk import noise_risk
-from .estimate import ExactEstimate, KnownLoad, Remark, Sample
+from .estimate import KnownLoad, Remark, Sample
+from .exact_estimate import ExactEstimate
 from .method import Method, within_stop
 from .settings import Settings
 

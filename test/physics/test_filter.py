@@ -214,7 +214,25 @@ def test_bad_input_changes_nothing():
         found.measure(2.0, 0.01)
     with pytest.raises(ValueError, match='must be above 0'):
         found.measure(0.1, 0.0)
+    for stddev in (-1.0, math.nan):
+        with pytest.raises(ValueError, match='stddev'):
+            found.reset(0.0, stddev)
     assert fed(found, [(1.0, 1.5)], start=2.0)[-1].interval() == (0.0, 0.0)
+
+
+@pytest.mark.parametrize('time', [math.nan, math.inf])
+def test_a_time_that_is_none_is_refused_even_as_the_first(time):
+    found = StickSlipFilter(PRELIMINARY, tension_stddev=NOISE)
+    with pytest.raises(ValueError, match='finite'):
+        found.update(1.0, 1.5, time)
+    assert found.update(1.0, 1.5, 0.0).time == 0.0
+
+
+def test_times_go_on_without_a_lag_too():
+    found = StickSlipFilter(PRELIMINARY, tension_stddev=NOISE, lag=0.0)
+    found.update(1.0, 1.5, 1.0)
+    with pytest.raises(ValueError, match='is not after'):
+        found.update(1.0, 1.5, 0.5)
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,8 @@
 """Estimates of the exact kinds, from answers of the physics."""
 
 from tendon_statics.estimation.equilibrium import PairEstimate
-from tendon_statics.estimation.estimate import ExactEstimate, KnownLoad
+from tendon_statics.estimation.estimate import KnownLoad
+from tendon_statics.estimation.exact_estimate import ExactEstimate
 from tendon_statics.estimation.settings import Settings
 from tendon_statics.estimation.tracking import TrackedEstimate
 from tendon_statics.physics import Equilibrium

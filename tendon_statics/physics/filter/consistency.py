@@ -213,6 +213,7 @@ class Consistency:
         slide = Slide(self._boundary, side, rest.mean, max(pushes, default=-math.inf))
         for one in samples[first:]:
             slide.take(one.reading)
+        seen = samples[first].reading
         before = [one.reading for one in samples[:first] if one.is_measured]
         onset = self._beyond(before[-1:], side) if before and True in left else Score()
         if not onset.value > 0.0:
@@ -220,6 +221,13 @@ class Consistency:
                 self._score_at(one.reading, rest, side) for one in (*earlier, samples[first])
             )
             onset = onset._replace(value=min(onset.value, 0.0))
+        if before:
+            # It slipped at a drive between those of two samples, and nothing tells at which.
+            step = (
+                self._score_at(seen, rest, side).force
+                - self._score_at(before[-1], rest, side).force
+            )
+            onset = onset._replace(deviation=math.hypot(onset.deviation, step / math.sqrt(12.0)))
         return _Slipping(side, onset, slide)
 
     def _score_at(self, reading: Reading, place: Group, side: float) -> Score:

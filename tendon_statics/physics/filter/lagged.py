@@ -104,12 +104,14 @@ class LaggedFilter(ABC, Generic[State, Place]):
         """Hold what was measured at a sample against its tensions, when these are settled."""
 
     def _check_time(self, time: float) -> None:
-        """Refuse a time that is not after that of the newest sample.
+        """Refuse a time that is not finite, or not after that of the newest sample.
 
         Raises
         ------
         ValueError
         """
+        if not math.isfinite(time):
+            raise ValueError(f'time is {time!r} s, which is not a finite number')
         last = self._samples.time
         if last is not None and not time > last:
             raise ValueError(f'time is {time!r} s, which is not after {last!r} s')

@@ -48,16 +48,14 @@ class RecentSamples:
     def forget(self) -> None:
         """Forget all samples."""
         self.waiting: deque[Sample] = deque()
+        self.time: float | None = None
+        """Of the newest sample in s"""
         self._buffer = SampleBuffer(self._signals)
-
-    @property
-    def time(self) -> float | None:
-        """Of the newest sample in s."""
-        return self.waiting[-1].time if self.waiting else None
 
     def append(self, tensions: Sequence[float], sample: Sample) -> None:
         """Append a sample that is newer than all."""
         self.waiting.append(sample)
+        self.time = sample.time
         self._buffer.append(tensions, REACH + len(self.waiting))
 
     def settled(self, until: float) -> int:

@@ -42,7 +42,13 @@ class Score(NamedTuple):
     shared: float = 0.0
     """Share of the variance that all scores have in common: of bias and design"""
     deviation: float = math.nan
-    """One deviation, as a change in N of the tension of the cable ahead"""
+    """One deviation, as a change in N of the tension of the cable ahead; of an onset together with
+    what is not seen between two samples"""
+
+    @property
+    def force(self) -> float:
+        """The score in N of the tension of the cable ahead."""
+        return self.value * self.deviation
 
 
 class Group(NamedTuple):

@@ -90,8 +90,11 @@ class StickSlipFilter(LaggedFilter[FilterState, Floats]):
         ------
         BendAngleError
             If the angle is not a number or lies beyond the stop; the old one then stays.
+        ValueError
+            If the deviation is not a number, or below 0; the old one then stays too.
         """
         angle = check_bend_angle(self._design, bend_angle)
+        check_least('stddev', stddev, 0.0)
         self._committed = self._newest = self._ensemble.angles(angle, stddev)
         self._assured = True
         self._consistency = Consistency(self._boundary)
@@ -130,7 +133,8 @@ class StickSlipFilter(LaggedFilter[FilterState, Floats]):
         TensionError
             As `solve` does.
         ValueError
-            If the time is not later than that before. What was known stays in both cases.
+            If the time is not finite, or not later than that before. What was known stays in both
+            cases.
         """
         tensions = check_tensions(tension_l, tension_s)
         self._check_time(time)
