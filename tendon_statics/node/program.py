@@ -84,10 +84,12 @@ def run(name: str, module: str, node_class: str, arguments: Sequence[str] | None
         if interrupted:
             return 0
         try:
+            if '--params-file' in arguments:  # before the node is ready, and says so
+                full_name = _full_name(name)
+                namespace = full_name.rpartition('/')[0]
+                beside = [f'{namespace}/{of}' for of in ESTIMATORS if name not in ESTIMATORS]
+                check_parameter_files(arguments, full_name, beside)
             node = make_node()
-            namespace = node.get_namespace().rstrip('/')
-            beside = [f'{namespace}/{of}' for of in ESTIMATORS if name not in ESTIMATORS]
-            check_parameter_files(arguments, node.get_fully_qualified_name(), beside)
         except (StartError, ParameterException, RuntimeError, ValueError) as error:
             # RuntimeError and ValueError are rclpy's own, of bad overrides and names.
             return _say(name, error) if rclpy.ok() else 0
@@ -106,6 +108,23 @@ def run(name: str, module: str, node_class: str, arguments: Sequence[str] | None
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, signal.SIG_IGN)
     return 0
+
+
+def _full_name(name: str) -> str:
+    """Return what a node would be called; rclpy knows of names that are remapped by nodes only."""
+    from rclpy.node import Node
+    from rclpy.parameter import Parameter
+
+    node = Node(
+        name,
+        start_parameter_services=False,
+        enable_rosout=False,
+        parameter_overrides=[Parameter('use_sim_time', value=False)],  # or it listens to /clock
+    )
+    try:
+        return node.get_fully_qualified_name()
+    finally:
+        node.destroy_node()
 
 
 def _spin(node: Any) -> None:

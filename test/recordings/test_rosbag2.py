@@ -1,5 +1,6 @@
 """Bags through ROS's own library, where it is: as much as the pure ones read, and without them."""
 
+import re
 import sys
 
 import bags
@@ -8,10 +9,10 @@ import pytest
 import stand_in_rosbag2
 from bags import write_bag
 
-from tendon_statics import RecordingError, load_recording
+from tendon_statics import BagTopics, RecordingError, load_recording
 from tendon_statics.files.installed_files import installed_config
-from tendon_statics.recordings.reading import rosbag2_file
 
+ARRAY = 'std_msgs/msg/Float64MultiArray'
 SESSION = installed_config('recorded_session.mcap')
 PURE = ('mcap', 'mcap.stream_reader', 'mcap.records', 'rosbags', 'rosbags.typesys')
 
@@ -20,10 +21,17 @@ PURE = ('mcap', 'mcap.stream_reader', 'mcap.records', 'rosbags', 'rosbags.typesy
 def rosbag2(monkeypatch):
     """Make `rosbag2_py` be there; the stand-in says what of the real one is used."""
     monkeypatch.setitem(sys.modules, 'rosbag2_py', stand_in_rosbag2)
-    monkeypatch.setattr(rosbag2_file, 'is_installed', lambda library: library == 'rosbag2_py')
     for library in PURE:
         monkeypatch.setitem(sys.modules, library, None)
     return monkeypatch
+
+
+@pytest.fixture
+def both(rosbag2):
+    """Make the pure libraries be there too."""
+    for library in PURE:
+        rosbag2.delitem(sys.modules, library)
+    return rosbag2
 
 
 def read(path):
@@ -83,7 +91,6 @@ def test_a_damaged_file_is_read_by_the_pure_libraries_as_far_as_it_goes(
     path.write_bytes(damaged(SESSION.read_bytes()))
     with pytest.raises(RecordingError, match=rf'{why}.*pip install mcap rosbags'):
         load_recording(path)
-    rosbag2.setattr(rosbag2_file, 'is_installed', lambda _: True)
     for library in PURE:
         rosbag2.delitem(sys.modules, library)
     recording = load_recording(path)
@@ -91,11 +98,97 @@ def test_a_damaged_file_is_read_by_the_pure_libraries_as_far_as_it_goes(
     assert len(recording) > 10
 
 
-def test_a_type_of_another_version_is_left_to_the_definitions_in_the_bag(tmp_path, rosbag2):
-    path = write_bag(
-        tmp_path / 'bag',
-        [('/tensions', 0.1 * k, bags.estimate(1.0, 2.0, 0.1 * k)) for k in (0, 1)],
+@pytest.mark.usefixtures('rosbag2')
+def test_what_rosbag2_passes_over_in_silence_is_said(tmp_path):
+    content = bytearray(SESSION.read_bytes())
+    content[len(content) // 2] ^= 0xFF
+    path = tmp_path / 'flipped.mcap'
+    path.write_bytes(content)
+    recording = load_recording(path)
+    assert re.search(r'\d+ messages are missing that its summary counts', recording.damage[0])
+
+
+def write_mcap(path, messages, encoding='cdr', kind=ARRAY, store=bags.STORE, type_hash=''):
+    """Write messages as (log time, content), by a library that leaves all to the caller."""
+    from mcap.writer import Writer
+
+    definition, _ = store.generate_msgdef(kind, ros_version=2)
+    with path.open('wb') as stream:
+        writer = Writer(stream)
+        writer.start()
+        schema = writer.register_schema(kind, 'ros2msg', definition.encode())
+        metadata = {'topic_type_hash': type_hash}  # where rosbag2 writes it
+        channel = writer.register_channel('/tensions', encoding, schema, metadata)
+        for time, content in messages:
+            writer.add_message(channel, time, content, time)
+        writer.finish()
+    return path
+
+
+def cdr(*tensions):
+    return bytes(bags.STORE.serialize_cdr(bags.array(*tensions), ARRAY))
+
+
+def test_messages_come_in_the_order_of_the_file_as_from_the_pure_libraries(tmp_path, monkeypatch):
+    path = write_mcap(
+        tmp_path / 'merged.mcap', [(3, cdr(1.0, 2.0)), (2, cdr(2.0, 2.0)), (1, cdr(3.0, 2.0))]
     )
-    rosbag2.setitem(stand_in_rosbag2.SequentialReader.hashes, bags.ESTIMATE, 'RIHS01_other')
-    with pytest.raises(RecordingError, match='Estimate in another version than is installed'):
-        load_recording(path)
+    expected = read(path)
+    monkeypatch.setitem(sys.modules, 'rosbag2_py', stand_in_rosbag2)
+    assert read(path) == expected
+
+
+@pytest.mark.usefixtures('both')
+def test_messages_in_another_encoding_are_left_to_the_pure_libraries(tmp_path):
+    content = bags.STORE.serialize_ros1(bags.array(1.0, 2.0), ARRAY)
+    path = write_mcap(tmp_path / 'of_ros1.mcap', [(1, bytes(content))], 'ros1')
+    assert load_recording(path).tensions() == [(1.0, 2.0)]
+
+
+@pytest.mark.usefixtures('both')
+def test_a_topic_of_two_types_is_left_to_the_pure_libraries(tmp_path):
+    from rosbags.rosbag2 import StoragePlugin, Writer
+
+    state = bags.joint_state(['cable_l', 'cable_s'], [3.0, 4.0], time=0.1)
+    with Writer(tmp_path / 'bag', version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        for message in (bags.array(1.0, 2.0), state):
+            kind = message.__msgtype__
+            connection = writer.add_connection('/tensions', kind, typestore=bags.STORE)
+            writer.write(connection, bags.ORIGIN, bags.STORE.serialize_cdr(message, kind))
+    topics = BagTopics(tension_source='joint_state')
+    assert load_recording(tmp_path / 'bag', topics).tensions() == [(3.0, 4.0)]
+
+
+@pytest.fixture(params=['mcap', 'db3'])
+def later_version(request, tmp_path):
+    """A bag with an ``Estimate`` of other fields; ROS would take them for the tensions."""
+    from rosbags.rosbag2 import Writer
+    from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+    store = get_typestore(Stores.ROS2_JAZZY)
+    fields = ('std_msgs/Header header', 'float64 more', 'float64 tension_l', 'float64 tension_s')
+    store.register(get_types_from_msg('\n'.join(fields), bags.ESTIMATE))
+    message = store.types[bags.ESTIMATE](bags.header(0.1), more=9.0, tension_l=1.0, tension_s=2.0)
+    content = bytes(store.serialize_cdr(message, bags.ESTIMATE))
+    if request.param == 'mcap':
+        type_hash = store.hash_rihs01(bags.ESTIMATE)
+        messages = [(bags.ORIGIN, content)]
+        return write_mcap(tmp_path / 'a.mcap', messages, 'cdr', bags.ESTIMATE, store, type_hash)
+    with Writer(tmp_path / 'bag', version=9) as writer:
+        connection = writer.add_connection('/tensions', bags.ESTIMATE, typestore=store)
+        writer.write(connection, bags.ORIGIN, content)
+    return tmp_path / 'bag'
+
+
+def test_a_type_of_another_version_is_left_to_the_definition_in_the_bag(both, later_version):
+    assert load_recording(later_version).tensions() == [(1.0, 2.0)]
+    for library in PURE:
+        both.setitem(sys.modules, library, None)
+    with pytest.raises(RecordingError, match='pip install rosbags'):
+        load_recording(later_version)
+
+
+def test_a_rosbag2_that_was_made_for_another_python_is_no_hindrance(monkeypatch):
+    expected = read(SESSION)
+    monkeypatch.setitem(sys.modules, 'rosbag2_py', None)  # as if its import failed
+    assert read(SESSION) == expected

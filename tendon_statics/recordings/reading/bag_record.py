@@ -39,6 +39,8 @@ class Record(NamedTuple):
     """Its content"""
     encoding: str = CDR
     """Of its content: `CDR` or `ROS1`"""
+    type_hash: str = ''
+    """Of the fields of its type, as ROS 2 makes it; empty if the bag has none"""
 
 
 def check_cdr(kind: str, data: bytes) -> None:

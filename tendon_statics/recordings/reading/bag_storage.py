@@ -188,8 +188,8 @@ class _Decoder:
         if record.encoding == CDR:
             check_cdr(record.kind, data)
         if self._ros is not None and record.encoding == CDR:
-            with suppress(LookupError):  # of a type that is not installed
-                return self._ros.decode(record.kind, data)
+            with suppress(LookupError):  # of a type that is not installed so
+                return self._ros.decode(record, data)
         self._pure = self._pure or _PureDecoder()
         return self._pure.decode(record, data)
 

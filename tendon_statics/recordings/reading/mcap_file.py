@@ -231,6 +231,7 @@ class _McapFile:
             yield Record(
                 *(channel.topic, kind, definition, part.log_time, part.data),
                 channel.message_encoding,
+                channel.metadata.get('topic_type_hash', ''),
             )
 
     def _parts(self, start: int, chunk: Any) -> Iterable[Any]:

@@ -52,25 +52,21 @@ def sqlite_records(path: Path, types: dict[str, str], damage: list[str]) -> Iter
             damage.extend(_unfinished(database, path))
             # So that a file that is shorter than its header says is read all the same.
             database.execute('PRAGMA writable_schema = ON')
-            topics = {
-                key: (_text(name), _text(kind) or UNKNOWN_TYPE)
-                for key, name, kind in database.execute('SELECT id, name, type FROM topics')
-            }
-            definitions = _definitions(database)
+            topics = _topics(database)
             rows = database.execute(_ROWS)
         except (sqlite3.Error, MemoryError) as error:
             raise RecordingError(f'it cannot be read as a bag: {error}') from None
-        types.update((name, kind) for name, kind in topics.values() if name)
+        types.update((of.topic, of.kind) for of in topics.values())
         unknown = unwritten = 0
         with _otherwise(database, file) as other:
             try:
                 for row in rows:
                     _, key, log_time, data = row
-                    name, kind = topics.get(key, ('', ''))
+                    blank = topics.get(key)
                     if other is not None and not _is_in(other, row):
                         unwritten += 1
-                    elif name:
-                        yield Record(name, kind, definitions.get(kind, ''), log_time, data)
+                    elif blank is not None:
+                        yield blank._replace(log_time=log_time, data=data)
                     else:
                         unknown += 1
             except (sqlite3.Error, MemoryError) as error:
@@ -188,6 +184,20 @@ def _unfinished(database: sqlite3.Connection, path: Path) -> Iterator[str]:
 def _content(path: Path, ending: str) -> bytes:
     journal = Path(f'{path}{ending}')
     return journal.read_bytes() if journal.is_file() else b''
+
+
+def _topics(database: sqlite3.Connection) -> dict[Any, Record]:
+    """Return the records of each topic, by its key, without time and content."""
+    definitions = _definitions(database)
+    columns = {name for _, name, *_ in database.execute('PRAGMA table_info(topics)')}
+    hash_column = 'type_description_hash' if b'type_description_hash' in columns else "''"
+    topics: dict[Any, Record] = {}
+    for key, *texts in database.execute(f'SELECT id, name, type, {hash_column} FROM topics'):
+        name, kind, type_hash = map(_text, texts)
+        if name:
+            blank = Record(name, kind or UNKNOWN_TYPE, definitions.get(kind, ''), 0, b'')
+            topics[key] = blank._replace(type_hash=type_hash)
+    return topics
 
 
 def _definitions(database: sqlite3.Connection) -> dict[str, str]:
