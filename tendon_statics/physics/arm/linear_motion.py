@@ -109,6 +109,11 @@ class LinearMotion:
         """The time after which a tenth is left of what dies away slowest."""
         return 2.3 / self._slow
 
+    def ways(self, times: Floats) -> Floats:
+        """Return the ways up to some times, a column for each, were it linear."""
+        of_modes = np.expm1(self._phases(times)) * self._ways[:, None]
+        return np.asarray((self._modes @ of_modes).real, np.float64)
+
     def at(self, time: float) -> tuple[Floats, Floats]:
         """Return way and velocity at a time, were it linear."""
         of_modes = np.expm1(self._phases(time)) * self._ways
@@ -131,14 +136,14 @@ class LinearMotion:
         end : float
             h.
         """
-        phases = self._phases(times)
-        of_modes = np.expm1(phases) * self._ways[:, None]
         if remainder is None:
-            ways = (self._modes @ of_modes).real
+            ways = self.ways(times)
             velocities = self.velocity[:, None] + self._jacobian @ ways
             return Path(times, ways, velocities, self._jacobian @ velocities)
         shares = times / end
         squares = shares * shares
+        phases = self._phases(times)
+        of_modes = np.expm1(phases) * self._ways[:, None]
         of_modes += 2.0 * times * squares * _phi_3(phases) * (self._inverse @ remainder)[:, None]
         ways = (self._modes @ of_modes).real
         velocities = self.velocity[:, None] + self._jacobian @ ways + squares * remainder[:, None]
