@@ -83,14 +83,13 @@ class Leg:
         self.jacobian: Floats = rows[list(motion.moving)]
         self.linear = LinearMotion(self.jacobian, motion.velocity(motion.look))
         self._changes = _Changes(motion, rows)
-        times = self.linear.times(MOST_SPAN, RATIO)
         reach = abs(self.linear.to_rest).max()
         self.may_rest = bool(self.linear.growth < 0.0 and reach <= NEAR)
         if self.may_rest:
-            self.time = self._changes.first(self.linear.path(np.concatenate(([0.0], times))))
+            times = np.concatenate(([0.0], self.linear.times(MOST_SPAN, RATIO)))
+            self.time = self._changes.first(self.linear.path(times))
         else:
-            gone = np.flatnonzero(abs(self.linear.ways(times)).max(axis=0) > far)
-            self.time = float(times[gone[0]]) if len(gone) else math.inf
+            self.time = self.linear.far(far)
 
     def go(self) -> float:
         """Go the leg; return how far in rad the next may be tried, 0 if this was not gone."""
@@ -116,8 +115,8 @@ class Leg:
             path = linear.path(end * PARTS, remainder, end)
             time = self._changes.first(path, resting, end)
             time = end if time == math.inf else time
-            (way,) = linear.path(np.array([time]), remainder, end).ways.T
-            look = motion.after(way)
+            bend, _ = linear.bend(time, (time / end) ** 2 * remainder)
+            look = motion.after(linear.at(time)[0] + bend)
         motion.take(look)
         motion.change()
         return min(FAR, far)
