@@ -57,6 +57,20 @@ def test_a_bend_is_what_the_path_is_longer_by_at_its_end(seed):
     assert at_end + faster == pytest.approx(expected_velocity, rel=1e-8)
 
 
+@pytest.mark.parametrize('seed', range(4))
+def test_it_is_far_when_it_has_gone_that_way(seed):
+    jacobian, velocity, _ = random_jacobian(seed)
+    linear = LinearMotion(jacobian, velocity)
+    way, _ = linear.at(linear.far(0.3))
+    assert abs(way).max() == pytest.approx(0.3, rel=0.1)
+
+
+def test_what_dies_away_before_is_never_far():
+    linear = LinearMotion(np.diag([-2.0, -1.0]), np.array([0.1, 0.1]))
+    assert linear.far(0.11) == np.inf
+    assert linear.far(0.09) < np.inf
+
+
 def test_what_neither_grows_nor_dies_away_goes_on_evenly():
     linear = LinearMotion(np.zeros((3, 3)), np.array([1.0, 1.0, -2.0]))
     way, velocity = linear.at(0.25)

@@ -26,7 +26,7 @@ from ..errors import ArmError
 from .excess import Excess, Look
 from .legs import FAR, Leg
 from .motion import Motion
-from .rest import NEAR, TINY, come_to_rest
+from .rest import TINY, come_to_rest
 
 MOST_LEGS = 3000
 
@@ -70,9 +70,8 @@ def settle(excess: Excess, angles: list[float]) -> Settled:
 def _rests(motion: Motion, leg: Leg) -> bool:
     """Go to rest if it is near and a leg goes there; return whether it was gone."""
     way = leg.linear.to_rest
-    if leg.linear.growth >= 0.0:
-        return False
-    reach = abs(way).max()
-    if reach <= TINY or (reach <= NEAR and leg.time == math.inf):
-        return come_to_rest(motion, way, leg.jacobian)
-    return False
+    return (
+        leg.may_rest
+        and bool(leg.time == math.inf or abs(way).max() <= TINY)
+        and come_to_rest(motion, way, leg.jacobian)
+    )

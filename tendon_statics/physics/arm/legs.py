@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from .excess import Look
 from .linear_motion import LinearMotion, Path
 from .motion import TOLERANCE, Motion
+from .rest import NEAR
 
 Floats = NDArray[np.float64]
 
@@ -65,8 +66,10 @@ class Leg:
     ----------
     linear : LinearMotion
         The motion, as it is where the leg begins.
+    may_rest : bool
+        Whether a place of rest is near, were the motion linear.
     time : float
-        When other joints move or it is far, were it linear; infinite if it rests before.
+        When other joints move then, before; else when it is far. Infinite if it never is.
 
     Raises
     ------
@@ -80,8 +83,13 @@ class Leg:
         self.jacobian: Floats = rows[list(motion.moving)]
         self.linear = LinearMotion(self.jacobian, motion.velocity(motion.look))
         self._changes = _Changes(motion, rows)
-        path = self.linear.path(np.concatenate(([0.0], self.linear.times(MOST_SPAN, RATIO))))
-        self.time = self._changes.first(path, far=far)
+        reach = abs(self.linear.to_rest).max()
+        self.may_rest = bool(self.linear.growth < 0.0 and reach <= NEAR)
+        if self.may_rest:
+            times = np.concatenate(([0.0], self.linear.times(MOST_SPAN, RATIO)))
+            self.time = self._changes.first(self.linear.path(times))
+        else:
+            self.time = self.linear.far(far)
 
     def go(self) -> float:
         """Go the leg; return how far in rad the next may be tried, 0 if this was not gone."""
@@ -107,8 +115,8 @@ class Leg:
             path = linear.path(end * PARTS, remainder, end)
             time = self._changes.first(path, resting, end)
             time = end if time == math.inf else time
-            (way,) = linear.path(np.array([time]), remainder, end).ways.T
-            look = motion.after(way)
+            bend, _ = linear.bend(time, (time / end) ** 2 * remainder)
+            look = motion.after(linear.at(time)[0] + bend)
         motion.take(look)
         motion.change()
         return min(FAR, far)
@@ -153,7 +161,6 @@ class _Changes:
         path: Path,
         remainder: Floats | None = None,
         end: float = 1.0,
-        far: float = math.inf,
     ) -> float:
         """Return the first time at which other joints move, just on the far side.
 
@@ -163,8 +170,6 @@ class _Changes:
         ----------
         remainder, end : array, float
             What `remainder` says of the end of the leg, and when that is.
-        far : float
-            Way in rad of which the same is said.
         """
         times, ways, velocities, accelerations = path
         fastest = abs(velocities).max(axis=0)
@@ -174,8 +179,6 @@ class _Changes:
         back = (np.maximum.accumulate(ahead, axis=1) - ahead).max(axis=1, keepdims=True)
         falls = np.where((sides * accelerations < 0.0) & (back > TOLERANCE), falls, -fastest)
         parts = [falls, ahead - self._to_go]
-        if far < math.inf:
-            parts.append(abs(ways).max(axis=0, keepdims=True) - far)
         if len(self._excess):
             excess = self._rows @ ways + self._excess[:, None]
             if remainder is not None:

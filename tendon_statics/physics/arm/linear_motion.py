@@ -16,6 +16,9 @@ MOST_GROWTH = 300.0
 SMALL_PHASE = 0.05
 """Size of λ t below which φ₃ is taken from its series, where the closed form cancels"""
 
+DOUBLINGS = 2.0 ** np.arange(-6, 12)
+"""Of the time in which a way would be gone at the velocity at first"""
+
 NO_RATE = 1e-300
 """In the place of a rate of zero, which everything here is the limit of"""
 
@@ -109,6 +112,11 @@ class LinearMotion:
         """The time after which a tenth is left of what dies away slowest."""
         return 2.3 / self._slow
 
+    def ways(self, times: Floats) -> Floats:
+        """Return the ways up to some times, a column for each, were it linear."""
+        of_modes = np.expm1(self._phases(times)) * self._ways[:, None]
+        return np.asarray((self._modes @ of_modes).real, np.float64)
+
     def at(self, time: float) -> tuple[Floats, Floats]:
         """Return way and velocity at a time, were it linear."""
         of_modes = np.expm1(self._phases(time)) * self._ways
@@ -116,10 +124,23 @@ class LinearMotion:
         return way, self.velocity + self._jacobian @ way
 
     def bend(self, time: float, remainder: Floats) -> tuple[Floats, Floats]:
-        """Return what a remainder d at a time h adds to way and velocity there."""
+        """Return what a remainder adds to way and velocity at a time, if it is d·(t/h)² there."""
         gains = 2.0 * time * _phi_3(self._phases(time))
         way: Floats = (self._modes @ (gains * (self._inverse @ remainder))).real
         return way, remainder + self._jacobian @ way
+
+    def far(self, way: float) -> float:
+        """Return about when it would be as far as a way, were it linear; infinite if never."""
+        times = np.asarray(way / abs(self.velocity).max() * DOUBLINGS, np.float64)
+        gone = abs(self.ways(times)).max(axis=0)
+        there = np.flatnonzero(gone > way)
+        if not len(there):
+            return math.inf
+        place = int(there[0])
+        if place == 0:
+            return float(times[0])
+        share = (way - gone[place - 1]) / (gone[place] - gone[place - 1])
+        return float(times[place - 1] + share * (times[place] - times[place - 1]))
 
     def path(self, times: Floats, remainder: Floats | None = None, end: float = 1.0) -> Path:
         """Return where it is at some times.
@@ -131,14 +152,14 @@ class LinearMotion:
         end : float
             h.
         """
-        phases = self._phases(times)
-        of_modes = np.expm1(phases) * self._ways[:, None]
         if remainder is None:
-            ways = (self._modes @ of_modes).real
+            ways = self.ways(times)
             velocities = self.velocity[:, None] + self._jacobian @ ways
             return Path(times, ways, velocities, self._jacobian @ velocities)
         shares = times / end
         squares = shares * shares
+        phases = self._phases(times)
+        of_modes = np.expm1(phases) * self._ways[:, None]
         of_modes += 2.0 * times * squares * _phi_3(phases) * (self._inverse @ remainder)[:, None]
         ways = (self._modes @ of_modes).real
         velocities = self.velocity[:, None] + self._jacobian @ ways + squares * remainder[:, None]
