@@ -516,6 +516,16 @@ def test_the_deviation_of_a_slipping_joints_force_is_that_of_all_that_is_measure
             compared += 1
 
 
+def test_while_a_joint_slips_the_probability_of_a_free_tip_is_a_twentieth_at_the_ends():
+    asked = {'bend_angles': (0.1, 0.05), 'direction': (1.0, 0.0), 'slipping': {1: 's'}, **NOISE}
+    found = arm_tip_force(ARM, EVEN, **asked)
+    for end in finite_ends(found.intervals):
+        at_end = arm_tip_force(ARM, EVEN, load=Load(tip_force=(end, 0.0)), **asked)
+        assert at_end.probability_free == pytest.approx(0.05, abs=1e-3)
+    assert found.at_limit
+    assert finite_ends(found.intervals)
+
+
 def test_the_true_force_is_inside_at_the_stated_rate():
     """A rough check; `tools/measure_arm_tip_force.py` has the figures."""
     from measure_arm_tip_force import covered, true_arm, true_force
