@@ -6,14 +6,15 @@ import math
 from collections.abc import Mapping
 
 from ..physics import BendAngleError, TensionError
-from ..physics.arm import ArmFilterState, ArmState, arm_tip_force_of_state
+from ..physics.arm import arm_tip_force_of_state
+from .arm_estimate import ArmEstimate
 from .arm_settings import ArmSettings
 from .measured_angle import MeasuredAngle
 from .tip_force_watch import Pushed
 
 
 class ArmTipForceWatch:
-    """Asks of each state what pushes at the tip, with the newest measured angles.
+    """Asks of each estimate what pushes at the tip, with the newest measured angles.
 
     As `TipForceWatch`, joint by joint. Of a joint whose angle was not measured lately the
     estimated one has to do, with its deviation.
@@ -40,15 +41,13 @@ class ArmTipForceWatch:
         for angle in self._angles:
             angle.forget()
 
-    def ask(
-        self, state: ArmState | ArmFilterState, settings: ArmSettings, now: float
-    ) -> Pushed | None:
-        """Return what a state tells of the tip force; None where it tells nothing.
+    def ask(self, estimate: ArmEstimate, settings: ArmSettings, now: float) -> Pushed | None:
+        """Return what an estimate tells of the tip force; None where it tells nothing.
 
         That is while a cable is slack, and where of a joint there is no angle, measured lately or
         assured.
         """
-        if state.is_slack:
+        if estimate.state.is_slack:
             return None
         stddev, timeout = settings.measured_bend_angle_stddev, settings.input_timeout
         measured = {
@@ -56,6 +55,9 @@ class ArmTipForceWatch:
             for joint, of in enumerate(self._angles, start=1)
             if (angle := of.newest(now, timeout)) is not None
         }
+        is_measured = len(measured) == len(self._angles)
+        if not (is_measured or estimate.is_sure):
+            return None
         stops = settings.arm.stops
         slipping = {
             joint: side
@@ -65,7 +67,7 @@ class ArmTipForceWatch:
         }
         try:
             found = arm_tip_force_of_state(
-                state,
+                estimate.state,
                 direction=settings.tip_direction,
                 bend_angles=measured,
                 bend_angle_stddev=stddev,
@@ -76,4 +78,4 @@ class ArmTipForceWatch:
             )
         except (BendAngleError, TensionError):  # smoothed tensions may leave a joint slack
             return None
-        return Pushed(found, math.nan, math.nan, is_measured=len(measured) == len(self._angles))
+        return Pushed(found, math.nan, math.nan, is_measured=is_measured)

@@ -47,7 +47,7 @@ class ArmTipForces(TipForces):
         return self._node.core.settings.tip_direction, self._node.arm.units[-1].length
 
     def _ask(self, estimate: ArmEstimate, now: float) -> Pushed | None:
-        return self._watch.ask(estimate.state, estimate.settings, now)
+        return self._watch.ask(estimate, estimate.settings, now)
 
     def _answer(self, request: Any) -> ArmTipForce:
         settings, arm = self._node.core.settings, self._node.arm

@@ -84,19 +84,30 @@ class ForceScores:
 
         Where the tensions do not seat the joint, at those closest to them that do.
         """
-        short = self._short(force)
-        unit = _raised(self._unit, short)
-        slip = unit.slip(force, side)
-        point = slip.at(side * unit.bend_angle)
-        variance = self._of_measured(force, slip, point)
-        variance += self._of_design(lambda other: _raised(other, short).excess(force, side))
-        return score(float(point.excess), variance)
+        return self._towards(force, (side,), self._unit.lift(force))[0]
 
-    def lift(self, force: float) -> float:
-        """Return by how many deviations the tensions fall short of seating the joint."""
+    def against(self, force: float, sides: Sequence[float]) -> tuple[list[float], float]:
+        """Return that for several sides, and by how many deviations the joint is not seated."""
+        lift = self._unit.lift(force)
         variance = self._of_measured_lift(force)
         variance += self._of_design(lambda other: other.lift(force))
-        return score(self._unit.lift(force), variance)
+        return self._towards(force, sides, lift), score(lift, variance)
+
+    def _towards(self, force: float, sides: Sequence[float], lift: float) -> list[float]:
+        short = max(0.0, lift + SEATED * abs(lift + self._unit.total))
+        unit = _raised(self._unit, short)
+        slip, found = unit.slip(force), []
+        for side in sides:
+            facing = slip if side == slip.side else slip.facing(side)
+            point = facing.at(side * unit.bend_angle)
+            variance = self._of_measured(force, facing, point)
+
+            def excess(other: PushedUnit, side: float = side) -> float:
+                return _raised(other, short).excess(force, side)
+
+            variance += self._of_design(excess)
+            found.append(score(float(point.excess), variance))
+        return found
 
     def _of_measured(self, _force: float, slip: Slip, point: SlipPoint) -> float:
         """Return the variance that g has by what is measured."""
@@ -133,11 +144,6 @@ class ForceScores:
             }
         )
 
-    def _short(self, force: float) -> float:
-        """Return by how much in N the tensions have to be raised to seat the unit, if at all."""
-        lift = self._unit.lift(force)
-        return max(0.0, lift + SEATED * abs(lift + self._unit.total))
-
 
 def _raised(unit: PushedUnit, by: float) -> PushedUnit:
     """Return a unit with both tensions together raised, in N."""
@@ -173,11 +179,11 @@ class Doubt:
     def bounds(self, force: float) -> tuple[float, float]:
         """Return x and y of the doubt Φ(x) − Φ(y)."""
         if self.slips_to:
-            score = abs(self.scores.towards(force, self.slips_to))
-            return max(score, self.scores.lift(force)), -score
-        against = [self.scores.towards(force, side) for side in self.sides]
+            (towards,), lift = self.scores.against(force, (self.slips_to,))
+            return max(abs(towards), lift), -abs(towards)
+        against, lift = self.scores.against(force, self.sides)
         least = min(against) if len(against) > 1 else -math.inf
-        return max(*against, self.scores.lift(force)), least
+        return max(*against, lift), least
 
     def beyond(self, force: float, level: float) -> float:
         """Return by how much the doubt, as a score, is beyond that of a level."""
@@ -193,6 +199,6 @@ class Doubt:
         """
         if self.slips_to:
             return 2.0 * NORMAL.cdf(-self.bounds(force)[0])
-        against = [self.scores.towards(force, side) for side in self.sides]
-        excluded = sum(map(NORMAL.cdf, (*against, self.scores.lift(force))))
+        against, lift = self.scores.against(force, self.sides)
+        excluded = sum(map(NORMAL.cdf, (*against, lift)))
         return max(0.0, 1.0 - excluded)

@@ -102,6 +102,51 @@ def test_tip_force_widens_the_set_by_noise_where_that_is_said():
     assert 'at 90 %' not in run('arm', *PUSHED).stdout
 
 
+def test_tip_force_of_a_joint_that_slips_is_a_number():
+    slips = ('--slipping', '4=s', '--tension-stddev', 0.02)
+    found = json.loads(run('arm', *PUSHED, *slips, '--format', 'json').stdout)
+    expected = arm_tip_force(
+        *(ARM, EVEN),
+        bend_angles=[0.0] * 5,
+        direction=(1.0, 0.0),
+        slipping={4: 's'},
+        tension_stddev=0.02,
+    )
+    assert found['at_limit']
+    assert found['force'] == expected.force
+    assert found['force_stddev'] == expected.force_stddev
+    text = run('arm', *PUSHED, *slips).stdout
+    assert f'force         {expected.force:+.4f} N, deviation' in text
+    refused = run('arm', *PUSHED, '--slipping', '1=x')
+    assert "it is '1=x', needed is N=SIDE" in refused.stderr
+
+
+def test_tip_force_takes_how_well_designs_are_known_from_their_files(tmp_path):
+    design = (FILE.parent / 'preliminary_design.yaml').read_text(encoding='utf-8')
+    uncertain = (
+        '    design_uncertainty:\n'
+        '      parameters: [friction_coefficient]\n'
+        '      covariance: [0.01]\n'
+    )
+    (tmp_path / 'exact.yaml').write_text(design, encoding='utf-8')
+    (tmp_path / 'fitted.yaml').write_text(design + uncertain, encoding='utf-8')
+    cables = '[{name: l, side: l, last_unit: 2}, {name: s, side: s, last_unit: 2}]'
+    found = []
+    for name in ('exact', 'fitted'):
+        arm = tmp_path / f'{name}_arm.yaml'
+        units = ', '.join(2 * [f'{{design_file: {name}.yaml, length: 0.02}}'])
+        arm.write_text(f'units: [{units}]\ncables: {cables}\n', encoding='utf-8')
+        asked = ('tip-force', arm, '--tensions', 'l=1', 's=1.2', *PUSHED[-3:])
+        done = run('arm', *asked, '--slipping', '1=s')
+        assert ('the uncertainty of the designs' in done.stdout) == (name == 'fitted')
+        printed = run('arm', *asked, '--slipping', '1=s', '--format', 'json').stdout
+        found.append(json.loads(printed))
+    exact, fitted = found
+    assert fitted['force'] == exact['force']
+    assert exact['force_stddev'] == 0.0
+    assert fitted['force_stddev'] > 0.01
+
+
 def test_tip_force_says_which_joint_bounds_the_set_where():
     text = run('arm', *PUSHED[:-2], 0, -1).stdout
     assert 'explained by  any force from' in text

@@ -6,8 +6,10 @@ import pytest
 from designs import PRELIMINARY
 
 from tendon_statics import Arm, ArmTracker, ArmUnit, Cable, arm_tip_force
+from tendon_statics.estimation.arm_estimate import ArmEstimate
 from tendon_statics.estimation.arm_settings import ArmSettings
 from tendon_statics.estimation.arm_tip_force_watch import ArmTipForceWatch
+from tendon_statics.estimation.estimate import KnownLoad
 
 ARM = Arm([ArmUnit(PRELIMINARY, 0.02)] * 2, [Cable('l', 'l', 2), Cable('s', 's', 2)])
 SETTINGS = ArmSettings(ARM, ('one', 'two'))
@@ -26,8 +28,12 @@ def measured(watch, paths, until=1.0):
         watch.note_angles({joint: path(time) for joint, path in paths.items()}, time, SETTINGS)
 
 
-def held():
-    return ArmTracker(ARM).update(EVEN)
+def estimated(state, *, is_assured=True):
+    return ArmEstimate(state, KnownLoad(state.load, is_assured), SETTINGS)
+
+
+def held(**more):
+    return estimated(ArmTracker(ARM).update(EVEN), **more)
 
 
 def test_measured_angles_at_rest_give_the_set_of_them():
@@ -56,7 +62,7 @@ def test_a_joint_that_is_not_measured_is_where_the_tracker_has_it_and_that_is_no
     measured(watch, {2: lambda _: 0.1})
     found = watch.ask(held(), SETTINGS, 1.0)
     assert not found.is_measured
-    own = held().bend_angle_stddevs(SETTINGS.tension_stddev)[0]
+    own = held().bend_angle_stddevs[0]
     stddevs = (own, SETTINGS.measured_bend_angle_stddev)
     asked = {**ASKED, 'bend_angle_stddev': stddevs}
     assert found.found == arm_tip_force(ARM, EVEN, bend_angles=[0.0, 0.1], **asked)
@@ -70,9 +76,14 @@ def test_nothing_is_said_while_a_cable_is_slack_or_an_angle_is_not_known():
     watch = ArmTipForceWatch(2)
     measured(watch, {1: lambda _: 0.0})
     tracker = ArmTracker(ARM)
-    assert watch.ask(tracker.update({'l': 1.0, 's': 0.0}), SETTINGS, 1.0) is None
-    assert watch.ask(tracker.update(EVEN), SETTINGS, 1.0) is None  # joint 2 may have moved
+    slack = estimated(tracker.update({'l': 1.0, 's': 0.0}))
+    assert watch.ask(slack, SETTINGS, 1.0) is None
+    doubted = estimated(tracker.update(EVEN))  # joint 2 may have moved
+    assert watch.ask(doubted, SETTINGS, 1.0) is None
+    unsure = held(is_assured=False)  # of a load that may be another
+    assert watch.ask(unsure, SETTINGS, 1.0) is None
     watch.note_angles({2: 0.0}, 1.0, SETTINGS)
-    assert watch.ask(tracker.update(EVEN), SETTINGS, 1.0).is_measured
+    assert watch.ask(doubted, SETTINGS, 1.0).is_measured
+    assert watch.ask(unsure, SETTINGS, 1.0).is_measured
     watch.forget()
-    assert watch.ask(tracker.update(EVEN), SETTINGS, 1.0) is None
+    assert watch.ask(doubted, SETTINGS, 1.0) is None

@@ -4,7 +4,8 @@ import pytest
 from designs import PRELIMINARY
 from make_docs import ROOT
 
-from tendon_statics import ArmError, load_arm, save_design
+from tendon_statics import ArmError, DesignUncertainty, load_arm, save_design
+from tendon_statics.files.arm_file import load_arm_uncertainties
 
 DESIGN = (
     '{ball_radius: 0.0078, cable_offset: 0.0045, com_distance: 0.008, mass: 0.02, '
@@ -50,6 +51,19 @@ def test_an_arm_is_read_with_its_designs_from_beside_it_or_from_within(write):
         ('s', 's', 2, 0.001),
     ]
     assert arm.cable_friction_coefficient == 0.1
+
+
+def test_how_well_designs_are_known_is_read_from_their_files(write, tmp_path):
+    assert load_arm_uncertainties(write()) == (None, None)
+    uncertainty = DesignUncertainty(('mass', 'friction_coefficient'), ((1e-6, 0.0), (0.0, 0.01)))
+    save_design(tmp_path / 'unit.yaml', PRELIMINARY, uncertainty=uncertainty)
+    assert load_arm_uncertainties(write()) == (None, uncertainty)
+    text = (tmp_path / 'unit.yaml').read_text(encoding='utf-8')
+    (tmp_path / 'unit.yaml').write_text(text.replace('"mass"', '"weight"'), encoding='utf-8')
+    with pytest.raises(ArmError, match=r"parameters has 'weight', which is no design") as raised:
+        load_arm_uncertainties(write())
+    assert 'arm.yaml' in str(raised.value)
+    assert '\n' not in str(raised.value)
 
 
 def test_without_it_the_cables_have_no_friction(write):

@@ -5,6 +5,8 @@ import math
 import random
 from collections import Counter
 from pathlib import Path
+from statistics import NormalDist
+from typing import NamedTuple
 
 import arm_brute
 import brute
@@ -32,6 +34,7 @@ from tendon_statics import (
     tip_force,
     tip_force_intervals,
 )
+from tendon_statics.physics.arm.force_doubt import ArmDoubt
 
 CONFIG = Path(__file__).parents[2] / 'config'
 COUNT = 200
@@ -514,6 +517,37 @@ def test_the_deviation_of_a_slipping_joints_force_is_that_of_all_that_is_measure
             assert found.force == force()
             assert found.force_stddev == pytest.approx(math.sqrt(variance), rel=1e-3), case
             compared += 1
+
+
+class Said(NamedTuple):
+    """A joint's doubt, whatever the force is."""
+
+    most: float
+    least: float
+    slips_to: float = 0.0
+
+    def bounds(self, _force):
+        return self.most, self.least
+
+
+def test_a_force_is_as_doubtful_as_to_the_joint_that_has_the_largest_doubt():
+    """Which is not that with the larger score: a narrow set may be left to either side."""
+    narrow, wide = Said(1.7, -1.6), Said(1.6, -math.inf)
+    level = NormalDist().cdf(1.6)
+    for joints in ([narrow, wide], [wide, narrow]):
+        doubt = ArmDoubt(joints)
+        assert doubt.bounding(0.1) == joints.index(wide) + 1
+        assert doubt.beyond(0.1, level**2) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_while_a_joint_slips_the_probability_of_a_free_tip_is_a_twentieth_at_the_ends():
+    asked = {'bend_angles': (0.1, 0.05), 'direction': (1.0, 0.0), 'slipping': {1: 's'}, **NOISE}
+    found = arm_tip_force(ARM, EVEN, **asked)
+    for end in finite_ends(found.intervals):
+        at_end = arm_tip_force(ARM, EVEN, load=Load(tip_force=(end, 0.0)), **asked)
+        assert at_end.probability_free == pytest.approx(0.05, abs=1e-3)
+    assert found.at_limit
+    assert finite_ends(found.intervals)
 
 
 def test_the_true_force_is_inside_at_the_stated_rate():

@@ -6,6 +6,7 @@ import random
 from collections import Counter
 
 import arm_brute
+import numpy as np
 import pytest
 from designs import PRELIMINARY
 from thoroughness import some_of
@@ -82,6 +83,32 @@ def test_joints_that_slip_tell_the_force_that_pushes_as_a_number():
         ((low, high),) = noisy.intervals
         assert low < force < high
     assert len(slipped) > 1, slipped
+
+
+def test_the_number_of_noisy_readings_is_off_by_its_deviation():
+    draw, off = random.Random(183), []
+    while len(off) < some_of(400):
+        state = pushed(0.01, draw.uniform(1.3, 2.0))
+        if Regime.SLIPPING not in state.regimes or Regime.DRIVEN_TO_STOP in state.regimes:
+            continue
+        tensions = {
+            name: of[0] + draw.gauss(0.0, 0.01) for name, of in state.cable_tensions.items()
+        }
+        found = arm_tip_force(
+            *(ARM, tensions),
+            bend_angles=[angle + draw.gauss(0.0, 0.005) for angle in state.bend_angles],
+            direction=ACROSS,
+            slipping={
+                joint: 's'
+                for joint, regime in enumerate(state.regimes, start=1)
+                if regime is Regime.SLIPPING
+            },
+            **NOISE,
+        )
+        if found.force is not None:
+            off.append((found.force - 0.01) / found.force_stddev)
+    assert np.mean(np.abs(off) < 1.96) > 0.9
+    assert abs(np.mean(off)) < 0.4
 
 
 def test_random_arms_that_were_followed_are_explained_by_the_force_that_pushes():

@@ -173,13 +173,15 @@ class ArmDoubt:
     def probability(self, force: float) -> float:
         """Return the probability that the sets of all joints have a force, as if independent.
 
-        While joints slip it is that of a reading as far off of one of these.
+        While a joint slips it is that of readings as far off: 1 − level at the ends of the
+        intervals of that level.
         """
-        slipping = [one.probability(force) for one in self.of_joints if one.slips_to]
-        found = math.prod(one.probability(force) for one in self.of_joints if not one.slips_to)
-        if slipping:
-            found *= 1.0 - (1.0 - min(slipping)) ** len(slipping)
-        return found
+        if not any(one.slips_to for one in self.of_joints):
+            return math.prod(one.probability(force) for one in self.of_joints)
+        bounds = [one.bounds(force) for one in self.of_joints]
+        near = max(1, sum([most > NEAR for most, _ in bounds]))
+        doubt = max([NORMAL.cdf(most) - NORMAL.cdf(least) for most, least in bounds])
+        return float(1.0 - doubt**near)
 
     def bounding(self, force: float) -> int | None:
         """Return the joint, counted from 1, that bounds the set there; None for infinity."""

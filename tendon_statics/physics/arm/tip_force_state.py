@@ -88,7 +88,8 @@ def arm_tip_force_of_state(
         angle, stddev = measured.get(index), bend_angle_stddev
         is_slipping = index in limits
         if angle is None:
-            if not is_assured and not state.is_slack:
+            is_known = is_assured and not (own_stddev is None and tension_stddev)
+            if not (is_known or state.is_slack):
                 raise BendAngleError(
                     f'the bend angle of joint {number} is not assured, and none was measured'
                 )

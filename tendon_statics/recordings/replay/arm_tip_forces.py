@@ -72,7 +72,7 @@ def arm_tip_forces(
         follower.measure(angles, now)
         estimate = samples.followed(follower, loads, place)
         if place in asked:
-            told = None if estimate is None else watch.ask(estimate.state, settings, now)
+            told = None if estimate is None else watch.ask(estimate, settings, now)
             rows.append(UNKNOWN if told is None else row_of(told.found))
     along = measured_along(recording, x, z)
     return TipForces.of(
