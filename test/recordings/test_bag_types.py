@@ -1,17 +1,20 @@
 """Tensions in a bag: by whatever types, names and topics drivers publish them."""
 
 import math
+from collections import Counter
 
 import bags
 import numpy as np
 import pytest
 from bags import STORE, write_bag
+from designs import PRELIMINARY
 from programs import assert_refused, run
 from rosbags.typesys import get_types_from_msg
 
 from tendon_statics.recordings.errors import RecordingError
 from tendon_statics.recordings.reading.load import load_recording
 from tendon_statics.recordings.reading.topics import BagTopics
+from tendon_statics.recordings.replay.estimates import replay
 
 DYNAMIC = 'control_msgs/msg/DynamicJointState'
 STORE.register(
@@ -266,3 +269,29 @@ def test_an_array_of_single_precision_is_read(tmp_path):
     )
     recording = load_recording(write(tmp_path, ('/tensions', 0.0, message)))
     assert recording.tensions() == [(1.5, 2.5)]
+
+
+@pytest.mark.parametrize('lost', [None, 5])
+def test_what_is_dropped_of_two_cables_does_not_put_time_back(tmp_path, lost):
+    """Cells that are not triggered together, one of which comes later and repeats a message."""
+    messages = []
+    for index in range(20):
+        time = 0.02 * index
+        for topic, stamp, delay, value in (
+            ('/tension_l', time + 0.004, 0.005, 1.0 + 0.01 * index),
+            ('/tension_s', time, 0.006, 1.5),
+            ('/tension_s', time, 0.007, 1.5001),
+        ):
+            if index != lost or topic == '/tension_s':
+                messages.append((topic, time + delay, bags.wrench(0.0, 0.0, value, stamp)))
+    recording = load_recording(write(tmp_path, *messages))
+    assert recording.disorder == ''
+    sound = [not fault for fault in recording.known_faults]
+    assert recording.time[sound] == pytest.approx(
+        [0.02 * index + 0.004 for index in range(20) if index != lost]
+    )
+    assert Counter(filter(None, recording.known_faults)) == Counter(
+        {'repeated stamp': 20, **({} if lost is None else {'unpaired': 1})}
+    )
+    found = replay(PRELIMINARY, recording, 'tracking')
+    assert found.angle_assured[sound].all()

@@ -29,10 +29,10 @@ REPLAYED = '/replay/regime'
 def load_bag(path: Path, topics: BagTopics, progress: Progress = unseen) -> Recording:
     """Read a bag, as `load_recording` does: one sample for each pair of tensions.
 
-    The samples stand in the order of recording, but for messages that came late. Their times are
-    by the clock that is chosen (`common_clock`). Angle, pressure and state are those of the
-    message nearest in time, if it is not farther than `BagTopics.max_skew`, and what acts on the
-    unit beside the cables likewise, if it is not farther than `LOAD_SKEW`.
+    The samples stand in the order of time or, where the clock of a topic goes back, of recording.
+    Their times are by the clock that is chosen (`common_clock`). Angle, pressure and state are
+    those of the message nearest in time, if it is not farther than `BagTopics.max_skew`, and what
+    acts on the unit beside the cables likewise, if it is not farther than `LOAD_SKEW`.
     """
     required = [*(topics.tensions or ()), *named_beside(topics)]
     defaults = [DEFAULT_TENSIONS, *DEFAULT_PAIR, *default_beside(topics)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
@@ -215,4 +216,13 @@ def tension_samples(
     for time, order, topic, values in sorted(arrivals, key=lambda of: of[0 if comes_late else 1]):
         joining.take(values, time if topic in clocked.rising else 0, time, order)
     joining.forget()
-    return sorted(samples, key=lambda of: of.time if comes_late else of.order)
+    # What is dropped has its own time: of two cables whose stamps each rise it need not follow.
+    rise = comes_late or all(
+        topic in clocked.rising or _rise([times[message.order] for message in messages])
+        for topic, messages in found.messages.items()
+    )
+    return sorted(samples, key=lambda of: (of.time, of.order) if rise else (of.order, 0))
+
+
+def _rise(times: Sequence[int]) -> bool:
+    return all(before <= after for before, after in itertools.pairwise(times))

@@ -27,6 +27,7 @@ ENDINGS = (*TEXT_ENDINGS, '.parquet', '.mat', *BAG_ENDINGS)
 _REMEDIES = {
     '.txt': '; a table of text can be read when it is renamed to .csv',
     '.dat': '; a table of text can be read when it is renamed to .csv',
+    **dict.fromkeys(('.gz', '.bz2', '.xz', '.zip'), '; unpack it first'),
     **dict.fromkeys(('.xlsx', '.xls', '.ods'), '; save a spreadsheet as CSV'),
 }
 """Endings that people try → what to do"""
