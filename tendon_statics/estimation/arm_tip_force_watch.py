@@ -41,6 +41,14 @@ class ArmTipForceWatch:
         for angle in self._angles:
             angle.forget()
 
+    def measured(self, now: float, settings: ArmSettings) -> dict[int, float]:
+        """Return the angles in rad that were measured lately, by the joint."""
+        return {
+            joint: angle
+            for joint, of in enumerate(self._angles, start=1)
+            if (angle := of.newest(now, settings.input_timeout)) is not None
+        }
+
     def ask(self, estimate: ArmEstimate, settings: ArmSettings, now: float) -> Pushed | None:
         """Return what an estimate tells of the tip force; None where it tells nothing.
 
@@ -50,11 +58,7 @@ class ArmTipForceWatch:
         if estimate.state.is_slack:
             return None
         stddev, timeout = settings.measured_bend_angle_stddev, settings.input_timeout
-        measured = {
-            joint: angle
-            for joint, of in enumerate(self._angles, start=1)
-            if (angle := of.newest(now, timeout)) is not None
-        }
+        measured = self.measured(now, settings)
         is_measured = len(measured) == len(self._angles)
         if not (is_measured or estimate.is_sure):
             return None

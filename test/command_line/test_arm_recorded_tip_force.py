@@ -63,6 +63,23 @@ def test_a_replay_writes_what_every_sample_tells_and_holds_it_against_what_was_m
     assert 'not measured' not in done.stdout
 
 
+def test_without_times_and_without_an_angle_for_a_while(tmp_path):
+    path, output = recorded(tmp_path / 'arm.csv'), tmp_path / 'replay.csv'
+    titles, *rows = csv.reader(path.read_text(encoding='utf-8').splitlines())
+    third = titles.index('bend_angle_3')
+    gap = [
+        [*row[:third], '', *row[third + 1 :]] if 15 <= n < 35 else row
+        for n, row in enumerate(rows)
+    ]
+    for columns_from, told in ((0, 30), (1, 20)):  # with times it holds for half a second
+        with path.open('w', encoding='utf-8', newline='') as file:
+            csv.writer(file).writerows([row[columns_from:] for row in (titles, *gap)])
+        done = run('arm', 'replay', FILE, path, *ASKED, '--output', output)
+        assert done.returncode == 0, done.stderr
+        low = [value for value in columns(output)['tip_force_low'] if value not in ('', 'nan')]
+        assert len(low) == pytest.approx(told, abs=1), columns_from
+
+
 def test_joints_that_were_not_measured_are_named(tmp_path):
     done = run('arm', 'replay', FILE, recorded(tmp_path / 'arm.csv', (1, 2, 3, 4)), *ASKED)
     assert done.returncode == 0, done.stderr

@@ -29,7 +29,8 @@ def arm_tip_forces(
     """Ask of every sample what pushes at the tip, as the node does with the same settings.
 
     The arm is followed from its measured angles, as by the node. A recorded tip force is not taken
-    for known; it is what the answer is held against.
+    for known; it is what the answer is held against. Nothing is told while a joint that has an
+    encoder has not been measured lately.
 
     Parameters
     ----------
@@ -61,18 +62,21 @@ def arm_tip_forces(
     follower = ArmFollower(settings, estimation)
     watch = ArmTipForceWatch(len(settings.arm.units))
     places = chosen_places(recording, most)
-    asked, rows = set(places.tolist()), []
+    asked, recorded, rows = set(places.tolist()), recording.bend_angles.keys(), []
     for place in progress(range(len(recording)), 'solving'):
         now, _ = samples.times[place]
-        if recording.time is None:  # nothing tells whether an angle moves
+        if recording.time is None:  # nothing tells whether an angle moves, or is old
             watch.forget()
+            now = 0.0
         angles = {joint: float(of[place]) for joint, of in recording.bend_angles.items()}
         angles = {joint: angle for joint, angle in angles.items() if math.isfinite(angle)}
         watch.note_angles(angles, now, settings)
         follower.measure(angles, now)
         estimate = samples.followed(follower, loads, place)
         if place in asked:
-            told = None if estimate is None else watch.ask(estimate, settings, now)
+            told = None
+            if estimate is not None and watch.measured(now, settings).keys() >= recorded:
+                told = watch.ask(estimate, settings, now)
             rows.append(UNKNOWN if told is None else row_of(told.found))
     along = measured_along(recording, x, z)
     return TipForces.of(
