@@ -51,7 +51,7 @@ CONFIGURATIONS = {
     ],
     ArmEstimator: [
         ['tension_source:=joint_state', 'tension_source:=array'],
-        ['estimation:=tracking'],
+        ['estimation:=tracking', 'estimation:=filtering'],
         ['gravity_source:=fixed', 'gravity_source:=imu', 'gravity_source:=pose'],
         ['tip_wrench:=false', 'tip_wrench:=true'],
         ['tip_force:=false', 'tip_force:=true'],
@@ -133,8 +133,7 @@ def test_every_parameter_that_is_a_choice_is_among_the_configurations(node_class
             or ' or ' in node.describe_parameter(name).additional_constraints
         }
     varied = {options[0].partition(':=')[0] for options in CONFIGURATIONS[node_class]}
-    # That with a single choice, as estimation of an arm has, is not told by its description.
-    assert choices | {'estimation'} == varied | (without_topics & node_names(node_class))
+    assert choices == varied | (without_topics & node_names(node_class))
 
 
 def node_names(node_class):
