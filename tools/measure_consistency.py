@@ -143,6 +143,7 @@ def main() -> int:
     parser.add_argument('--seconds', type=float, default=14.0, metavar='S', help='of a session')
     parser.add_argument('--noise', type=float, default=0.01, metavar='N', help='in N')
     parser.add_argument('--rate', type=float, default=500.0, metavar='HZ')
+    parser.add_argument('--unit', choices=UNITS, help='default: all')
     parser.add_argument('--right', action='store_true', help='only the right model')
     parser.add_argument('--seed', type=int, default=secrets.randbelow(2**31), metavar='N')
     options = parser.parse_args()
@@ -153,7 +154,8 @@ def main() -> int:
         print('.', end='', file=sys.stderr, flush=True)
         return session(unit, program, options.noise, options.rate, options.seconds, random)
 
-    for unit, (design, _) in UNITS.items():
+    for unit in [options.unit] if options.unit else UNITS:
+        design, _ = UNITS[unit]
         programs = itertools.cycle(('strokes', *PROGRAMS) if options.right else ('strokes',))
         runs = [
             run(drawn(unit, program), Fault(design), random)

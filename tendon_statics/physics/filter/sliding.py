@@ -35,6 +35,7 @@ class Slide:
         self._sure: Excess | None = None
         self._pending: Excess | None = None
         self._last: Reading | None = None
+        self._score: Score | None = None
         self._pushes = True
 
     def take(self, reading: Reading) -> None:
@@ -56,11 +57,12 @@ class Slide:
             if self._pending is not None:
                 sure = self._sure
                 self._sure = self._pending if sure is None else sure.plus(self._pending)
-                self._pending = None
+                self._pending = self._score = None
 
     @property
     def score(self) -> Score | None:
         """How far from the boundary it was in the mean; None while nothing is known."""
-        if self._sure is None or self._last is None:
-            return None
-        return self._boundary.score(self._sure, self._last, self._last.bend_angle, self._side)
+        if self._score is None and self._sure is not None and self._last is not None:
+            last = self._last
+            self._score = self._boundary.score(self._sure, last, last.bend_angle, self._side)
+        return self._score
