@@ -36,11 +36,9 @@ def pytest_collection_modifyitems(items):
     """Mark the tests of the node: those that run a program, or listen to one; and a browser's."""
     for item in items:
         there = vars(item.module)
-        if (
-            'Program' in there
-            or 'Listener' in there
-            or not LISTENERS.isdisjoint(item.fixturenames)
-        ):
+        if not {'Program', 'ForkedProgram', 'Listener'}.isdisjoint(
+            there
+        ) or not LISTENERS.isdisjoint(item.fixturenames):
             item.add_marker(pytest.mark.node)
         if 'browser' in item.fixturenames:
             item.add_marker(pytest.mark.browser)

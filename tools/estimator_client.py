@@ -32,6 +32,9 @@ class EstimatorClient(Node):
     SERVICES: ClassVar[dict[str, type]] = {'solve': Solve}
     """Of the estimator, name → type"""
 
+    PROGRAM: ClassVar[type[Program]] = Program
+    """How the estimator is run"""
+
     def __init__(self, context: Context, tensions: Mapping[str, type] = ARRAY) -> None:
         super().__init__('listener', context=context)
         self.regimes: list[str] = []
@@ -85,9 +88,9 @@ class EstimatorClient(Node):
 
     @contextmanager
     def estimator(self, *ros_arguments: str) -> Iterator[Program]:
-        """Run the installed estimator, connected with this node."""
+        """Run the estimator, connected with this node."""
         arguments = ('--ros-args', *ros_arguments) if ros_arguments else ()
-        with Program.running('estimator', *arguments) as program:
+        with self.PROGRAM.running('estimator', *arguments) as program:
             self.connect(program)
             yield program
 

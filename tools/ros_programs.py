@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from ament_index_python.packages import get_package_prefix
 from lifecycle_msgs.srv import GetState
@@ -77,10 +77,23 @@ def become_known(node: Node, managed: str) -> None:
     ask(node.create_client(GetState, f'{managed}/get_state'), GetState.Request())
 
 
-_ENDED = os.WEXITED | os.WNOWAIT | os.WNOHANG
-
 END_WITH_PARENT = ('setpriv', '--pdeathsig', 'TERM', '--') if shutil.which('setpriv') else ()
 """So that a run that is killed leaves nothing behind in a ROS domain that others may take"""
+
+
+class Process(Protocol):
+    """What a program needs of `subprocess.Popen`."""
+
+    pid: int
+
+    def poll(self) -> int | None:
+        """Return its exit code if it has ended; minus the signal if that ended it."""
+
+    def wait(self, timeout: float | None = None) -> int:
+        """Return its exit code when it has ended, or raise `subprocess.TimeoutExpired`."""
+
+    def send_signal(self, sig: int, /) -> None:
+        """Send a signal if it has not ended."""
 
 
 class Program:
@@ -89,7 +102,10 @@ class Program:
     def __init__(self, command: Sequence[str | Path]) -> None:
         # Appending, since the position in the file is shared with the program.
         self._output = tempfile.TemporaryFile('a+')  # noqa: SIM115  closed in running_command
-        self.process = subprocess.Popen(
+        self.process = self._start(command)
+
+    def _start(self, command: Sequence[str | Path]) -> Process:
+        return subprocess.Popen(
             [*END_WITH_PARENT, *command], stdout=self._output, stderr=subprocess.STDOUT
         )
 
@@ -124,12 +140,17 @@ class Program:
             If it needs more seconds than `within`, without those in which others had the cores.
         """
         if self.process.poll() is not None:
-            return self.process.returncode
-        begin, waited = time.monotonic(), self._waited_for_core()
+            return self.wait()
+        begin, waited, took = time.monotonic(), self._waited_for_core(), 0.0
+
+        def has_ended() -> bool:
+            nonlocal took
+            with suppress(OSError):  # of one that is gone
+                took = time.monotonic() - begin - (self._waited_for_core() - waited)
+            return self.process.poll() is not None
+
         self.process.send_signal(number)
-        # Not reaped yet, so that the system still knows how long it waited.
-        wait_for('its end', lambda: os.waitid(os.P_PID, self.process.pid, _ENDED) is not None)
-        took = time.monotonic() - begin - (self._waited_for_core() - waited)
+        wait_for('its end', has_ended)
         if took > within:
             raise TimeoutError(f'it took {took:.1f} s to end, allowed are {within:g} s')
         return self.wait()
@@ -166,7 +187,7 @@ class Program:
                 try:
                     program.wait()
                 except subprocess.TimeoutExpired:
-                    program.process.kill()
+                    program.process.send_signal(signal.SIGKILL)
                     program.wait()
             program._output.close()
 

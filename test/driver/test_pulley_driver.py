@@ -8,9 +8,10 @@ import signal
 from contextlib import contextmanager
 
 import pytest
+from forked_programs import ForkedProgram
 from geometry_msgs.msg import WrenchStamped
 from rclpy.node import Node
-from ros_programs import Program, spinning, wait_for
+from ros_programs import spinning, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
@@ -56,7 +57,7 @@ def audience(kind='array'):
 
 
 def driver(*arguments):
-    return Program.running(
+    return ForkedProgram.running(
         'pulley_driver',
         *('--ros-args', '-p', 'awaited_subscribers:=1'),
         *(part for argument in arguments for part in ('-p', argument)),

@@ -5,8 +5,8 @@ import math
 import bags
 import pytest
 from bags import write_bag
+from forked_programs import ForkedProgram
 from programs import assert_refused, run
-from ros_programs import Program
 
 from tendon_statics import default_design_path
 from tendon_statics.files.design_file import save_design
@@ -98,7 +98,7 @@ def test_what_two_readers_take_for_two_things_is_refused_by_verb_and_node_alike(
     assert design != DESIGN
     path = unit(design=design)
     assert_refused(run('design', '--design', path), named)
-    with Program.running('estimator', '--ros-args', '--params-file', str(path)) as program:
+    with ForkedProgram.running('estimator', '--ros-args', '--params-file', str(path)) as program:
         assert program.wait() == 1
         line = program.output().splitlines()[-1]
     assert line.startswith(f'estimator cannot start: {path}: ')
@@ -110,7 +110,7 @@ def test_a_file_for_another_node_is_refused_by_verb_and_node_alike(unit):
     named = 'it is addressed to /winch in line 1, so /estimator takes nothing from it'
     assert_refused(run('solve', '--tension-l', 1, '--tension-s', 2, '--design', path), named)
     assert run('design', '--design', path, '--node', '/winch').returncode == 0
-    with Program.running('estimator', '--ros-args', '--params-file', str(path)) as program:
+    with ForkedProgram.running('estimator', '--ros-args', '--params-file', str(path)) as program:
         assert program.wait() == 1
         assert named in program.output().splitlines()[-1]
 

@@ -10,6 +10,7 @@ from contextlib import ExitStack
 import pytest
 from arm_client import ArmClient, array, same, values
 from diagnostic_msgs.msg import DiagnosticStatus
+from forked_programs import ForkedProgram
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
 from ros_domain import free_domain, in_domain
@@ -130,7 +131,7 @@ def test_a_whole_array_is_taken_in_the_order_of_the_file():
 
     with (
         spinning(make) as client,
-        Program.running(
+        ForkedProgram.running(
             'arm_estimator', *('--ros-args', '-p', 'tension_source:=array', *LONG)
         ) as program,
     ):

@@ -11,6 +11,7 @@ from importlib.metadata import version
 import numpy as np
 import pytest
 from designs import PRELIMINARY
+from forked_programs import ForkedProgram
 from listener import reliable_input
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -328,7 +329,7 @@ def test_a_part_of_a_design_is_completed_with_a_warning(listener):
     ],
 )
 def test_a_bad_parameter_at_the_start_is_one_line_and_exit_code_1(argument, named):
-    with Program.running('estimator', '--ros-args', '-p', argument) as program:
+    with ForkedProgram.running('estimator', '--ros-args', '-p', argument) as program:
         assert program.wait() == 1
         line = program.output().splitlines()[-1]
         assert line.startswith('estimator cannot start: ')
@@ -346,7 +347,7 @@ def test_a_bad_parameter_at_the_start_is_one_line_and_exit_code_1(argument, name
 def test_a_corrupt_parameter_file_is_one_line_that_names_file_and_line(text, named, tmp_path):
     path = tmp_path / 'corrupt.yaml'
     path.write_text(text)
-    with Program.running('estimator', '--ros-args', '--params-file', str(path)) as program:
+    with ForkedProgram.running('estimator', '--ros-args', '--params-file', str(path)) as program:
         assert program.wait() == 1
         (line,) = program.output().splitlines()
         assert line.startswith(f'estimator cannot start: {path}: {named}')
@@ -356,7 +357,7 @@ def test_a_corrupt_parameter_file_is_one_line_that_names_file_and_line(text, nam
 def test_a_parameter_file_for_another_node_is_refused_by_every_program(name, tmp_path):
     path = tmp_path / 'unit.yaml'
     path.write_text('# whose\nwinch:\n  ros__parameters: {rate: 5.0}\n')
-    with Program.running(name, '--ros-args', '--params-file', str(path)) as program:
+    with ForkedProgram.running(name, '--ros-args', '--params-file', str(path)) as program:
         assert program.wait() == 1
         (line,) = [line for line in program.output().splitlines() if 'cannot start' in line]
     named = f'{path}: it is addressed to /winch in line 2, so /{name} takes nothing from it'
@@ -368,13 +369,13 @@ def test_a_parameter_file_for_an_estimator_may_be_given_to_what_runs_beside_it(n
     path = tmp_path / 'unit.yaml'
     path.write_text('left:\n  estimator:\n    ros__parameters: {design: {mass: 0.1}}\n')
     arguments = ('-r', '__ns:=/left', '-p', 'port:=0', '--params-file', str(path))
-    with Program.running(name, '--ros-args', *arguments) as program:
+    with ForkedProgram.running(name, '--ros-args', *arguments) as program:
         wait_for('it to run', lambda: '[INFO]' in program.output())
         assert program.end() == 0
 
 
 def test_what_ros_itself_refuses_is_said_without_its_sources():
-    with Program.running('estimator', '--ros-args', '-p', 'mass') as program:
+    with ForkedProgram.running('estimator', '--ros-args', '-p', 'mass') as program:
         assert program.wait() == 1
         line = program.output().splitlines()[-1]
         assert line.startswith('estimator cannot start: ')
@@ -662,7 +663,7 @@ def test_the_regime_is_there_for_who_joins_later_though_nobody_heard_it():
     latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     with (
         spinning(lambda context: Node('driver', context=context)) as driver,
-        Program.running('estimator', '--ros-args', '-p', 'input_timeout:=600.0'),
+        ForkedProgram.running('estimator', '--ros-args', '-p', 'input_timeout:=600.0'),
     ):
         tensions = driver.create_publisher(Float64MultiArray, 'tensions', 10)
         latest = driver.create_client(Trigger, 'estimator/solve_latest')
@@ -721,7 +722,7 @@ def test_the_version_is_said_in_every_place(name):
 
 @pytest.mark.parametrize('argument', ['--params-file', 'unit.yaml'])
 def test_an_argument_that_is_not_for_ros_is_refused(argument):
-    with Program.running('estimator', argument) as program:
+    with ForkedProgram.running('estimator', argument) as program:
         assert program.wait() == 1
         (line,) = program.output().splitlines()
         assert line.startswith(f'estimator cannot start: {argument} is not known here')

@@ -6,7 +6,9 @@ from contextlib import contextmanager
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticStatus
+from forked_programs import ForkedProgram
 from listener import Listener, reliable_input
+from rclpy.context import Context
 from ros_programs import EXECUTOR, Program, spinning, wait_for
 
 from tendon_statics import Regime
@@ -24,10 +26,18 @@ FAULTS = (
 )
 
 
+class Observer(Listener):
+    """Leaves the tensions to drivers, and runs the estimator as installed: its memory counts."""
+
+    PROGRAM = Program
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context, None)
+
+
 @pytest.fixture
 def observer():
-    """A listener that leaves the tensions to drivers."""
-    with spinning(lambda context: Listener(context, None)) as node:
+    with spinning(Observer) as node:
         yield node
 
 
@@ -43,13 +53,14 @@ def driver(recording, *parameters: str, kind: str = 'array'):
     """A stand-in driver as a process, which begins when it is heard."""
     values = (f'file:={recording}', f'tension_source:={kind}', 'awaited_subscribers:=1')
     arguments = [part for value in (*values, *parameters) for part in ('-p', value)]
-    return Program.running('pulley_driver', '--ros-args', *arguments)
+    return ForkedProgram.running('pulley_driver', '--ros-args', *arguments)
 
 
 @contextmanager
 def estimator_of(observer, recording, *more: str, kind: str = 'array', reliable=True):
     """An estimator that is known to hear a driver and to be heard on all topics."""
-    values = [f'tension_source:={kind}', 'max_skew:=0.0005', *more]
+    # A pair has one stamp; a driver that catches up sends the next reading within microseconds.
+    values = [f'tension_source:={kind}', 'max_skew:=0.0', *more]
     # Room for a listener that is slow on a busy machine.
     values += [f'qos_overrides./estimator/{topic}.publisher.depth:=5000' for topic in OUTPUTS]
     arguments = [part for value in values for part in ('-p', value)]
@@ -264,10 +275,9 @@ def test_a_second_driver_may_come_and_go_and_come_again(observer, recording, tmp
                 wait_for('what it sends', lambda n=known: count_of_other() > n + 50)
                 second.end(number)
             observer.wait_for_status(DiagnosticStatus.OK, Regime.DRIVEN_TO_STOP.value)
-        # A loss is said in the second report after it.
+        # A loss is said in the second report after it. A slow machine may be behind, without any.
         for _ in range(3):
-            status = observer.report()
-            assert status.level == DiagnosticStatus.OK, status.message
+            assert 'lost' not in observer.report().message
         if EXECUTOR != 'events':
             assert observer.count('messages lost on the way') == before
         taken = [(e.tension_l, e.tension_s) for e in observer.estimates]

@@ -6,10 +6,11 @@ import time
 from designs import PRELIMINARY
 from diagnostic_msgs.msg import DiagnosticStatus
 from estimates import estimate_of
+from forked_programs import ForkedProgram
 from listener import Listener
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
-from ros_programs import Program, spinning, wait_for
+from ros_programs import spinning, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray
 
@@ -254,10 +255,10 @@ def test_a_second_publisher_is_noticed(listener):
 
 def test_two_nodes_of_one_name_both_say_so(listener):
     quiet = ('--ros-args', '-p', 'input_timeout:=600.0')
-    with Program.running('estimator', *quiet), Program.running('estimator', *quiet):
+    with ForkedProgram.running('estimator', *quiet), ForkedProgram.running('estimator', *quiet):
         for _ in range(2):  # of the two, each once a second
             listener.wait_for_status(WARN, '2 nodes are called /estimator, and each publishes')
-    with Program.running('estimator', *quiet, '-r', '__ns:=/left'):
+    with ForkedProgram.running('estimator', *quiet, '-r', '__ns:=/left'):
         since = len(listener.diagnostics)
 
         def told() -> list[DiagnosticStatus]:
@@ -271,7 +272,7 @@ def test_a_driver_of_another_kind_is_named(listener):
     """Which ROS by itself does not say: nothing comes, and no publisher is counted."""
     with (
         spinning(lambda context: Listener(context, 'joint_state')),
-        Program.running('estimator', '--ros-args', '-p', 'input_timeout:=0.1'),
+        ForkedProgram.running('estimator', '--ros-args', '-p', 'input_timeout:=0.1'),
     ):
         status = listener.wait_for_status(STALE, '/tensions is published as sensor_msgs/msg/Joint')
         assert 'tension_source array takes std_msgs/msg/Float64MultiArray' in status.message
@@ -282,7 +283,9 @@ def test_a_driver_whose_quality_of_service_does_not_fit_is_named(listener):
     with spinning(lambda context: Node('driver', context=context)) as driver:
         best_effort = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
         driver.create_publisher(Float64MultiArray, 'tensions', best_effort)
-        with Program.running('estimator', '--ros-args', '-p', 'input_timeout:=0.1', *reliable):
+        with ForkedProgram.running(
+            'estimator', '--ros-args', '-p', 'input_timeout:=0.1', *reliable
+        ):
             status = listener.wait_for_status(STALE, 'a quality of service that does not fit')
             assert 'reliab' in status.message.lower()
 
@@ -293,7 +296,9 @@ def test_one_of_two_drivers_that_does_not_fit_is_named_though_tensions_come(list
         heard = driver.create_publisher(Float64MultiArray, 'tensions', 10)
         best_effort = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
         driver.create_publisher(Float64MultiArray, 'tensions', best_effort)
-        with Program.running('estimator', '--ros-args', '-p', 'input_timeout:=60.0', *reliable):
+        with ForkedProgram.running(
+            'estimator', '--ros-args', '-p', 'input_timeout:=60.0', *reliable
+        ):
 
             def is_answered() -> bool:
                 heard.publish(Float64MultiArray(data=[1.0, 2.0]))
@@ -323,7 +328,9 @@ def test_a_driver_is_found_by_the_topic_that_is_remapped_once():
     with (
         spinning(Listener) as listener,
         spinning(lambda context: Node('driver', context=context)) as driver,
-        Program.running('estimator', '--ros-args', '-p', 'tension_source:=wrench_pair', *swapped),
+        ForkedProgram.running(
+            'estimator', '--ros-args', '-p', 'tension_source:=wrench_pair', *swapped
+        ),
     ):
         driver.create_publisher(JointState, 'tension_s', 10)
         status = listener.wait_for_status(STALE, 'JointState')
@@ -333,6 +340,6 @@ def test_a_driver_is_found_by_the_topic_that_is_remapped_once():
 
 def test_the_name_tells_estimators_apart(listener):
     arguments = ('-r', '__ns:=/left/wrist')
-    with Program.running('estimator', '--ros-args', *arguments):
+    with ForkedProgram.running('estimator', '--ros-args', *arguments):
         wait_for('a status', lambda: listener.diagnostics)
         assert listener.diagnostics[-1].name == 'left/wrist/estimator: estimation'

@@ -8,6 +8,7 @@ import pytest
 from builtin_interfaces.msg import Time
 from designs import PRELIMINARY
 from diagnostic_msgs.msg import DiagnosticStatus
+from forked_programs import ForkedProgram
 from listener import Listener, reliable_input
 from rclpy.node import Node
 from ros_programs import Program, spinning, wait_for
@@ -298,9 +299,9 @@ def test_markers_only_if_asked_for(listener):
 
 def test_with_sensor_data_qos_any_driver_fits():
     with (
-        Program.running('pulley_driver', '--ros-args', '-p', 'rate:=100.0'),
+        ForkedProgram.running('pulley_driver', '--ros-args', '-p', 'rate:=100.0'),
         spinning(Listener) as listener,
-        Program.running('estimator'),
+        ForkedProgram.running('estimator'),
     ):
         wait_for('estimates', lambda: len(listener.estimates) > 10)
         assert not math.isnan(listener.estimates[-1].tension_l)

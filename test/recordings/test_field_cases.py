@@ -194,10 +194,10 @@ def test_a_file_that_two_programs_would_read_differently_is_refused_by_all(cases
         assert code == 2
         assert '010' in errors
     with spinning(Listener) as listener:
-        from ros_programs import Program
+        from forked_programs import ForkedProgram
 
         arguments = ('--ros-args', '--params-file', str(design))
-        with Program.running('estimator', *arguments) as program:
+        with ForkedProgram.running('estimator', *arguments) as program:
             assert program.process.wait(TIME_LIMIT) == 1
             assert '010' in program.output()
         assert listener.regimes == []

@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 
 from builtin_interfaces.msg import Time as Stamp
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from forked_programs import ForkedProgram
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState, GetState
@@ -91,12 +92,12 @@ class ArmClient(Node):
 
     @contextmanager
     def estimator(self, *arguments: str, greet: bool = True) -> Iterator[Program]:
-        """Run the installed estimator of an arm, connected with this node.
+        """Run the estimator of an arm, connected with this node.
 
         Unless it is not to be greeted, it has answered even tensions, and that is forgotten.
         """
         more = ('-p', f'executor:={EXECUTOR}') if EXECUTOR else ()
-        with Program.running(
+        with ForkedProgram.running(
             'arm_estimator', '--ros-args', *RELIABLE, *arguments, *more
         ) as program:
             self.connect(program)

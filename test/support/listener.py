@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 from builtin_interfaces.msg import Time as Stamp
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from estimator_client import ARRAY, EstimatorClient
+from forked_programs import ForkedProgram
 from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState, GetState
@@ -68,6 +69,8 @@ class Listener(EstimatorClient):
         'get_state': GetState,
     }
 
+    PROGRAM = ForkedProgram
+
     def __init__(self, context: Context, tension_source: str | None = 'array') -> None:
         super().__init__(context, KINDS[tension_source])
         self.tension_source = tension_source
@@ -85,7 +88,7 @@ class Listener(EstimatorClient):
 
     @contextmanager
     def estimator(self, *ros_arguments: str) -> Iterator[Program]:
-        """Run the installed estimator for the kind of tensions, connected with this node."""
+        """Run the estimator for the kind of tensions, connected with this node."""
         if self.tension_source not in (None, 'array'):
             ros_arguments = ('-p', f'tension_source:={self.tension_source}', *ros_arguments)
         with super().estimator(*ros_arguments) as program:

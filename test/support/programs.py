@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import os
 import subprocess
 import sys
@@ -10,35 +9,14 @@ import tempfile
 from pathlib import Path
 
 from ament_index_python.packages import get_package_prefix
+from forks import FORKS, become
 
-from tendon_statics.command_line.main import VERBS, main
+from tendon_statics.command_line.main import main
 
 PROGRAM = [f'{get_package_prefix("tendon_statics")}/lib/tendon_statics/tendon-statics']
 
 TIME_LIMIT = 120.0
 """Seconds; ten times what any verb needs"""
-
-_FORKS = multiprocessing.get_context('forkserver')
-# Once for all that are forked. What is missing here is only slower.
-_FORKS.set_forkserver_preload(
-    [
-        *(
-            '__main__',
-            *(f'tendon_statics.command_line.{verb.replace("-", "_")}' for verb in VERBS),
-        ),
-        *(
-            'tendon_statics.command_line.arm_plot',
-            'tendon_statics.recordings.reading.bag_tensions',
-        ),
-        *(
-            'matplotlib.figure',
-            'matplotlib.backends.backend_svg',
-            'matplotlib.backends.backend_agg',
-        ),
-        *('numpy', 'scipy.optimize', 'scipy.special', 'mcap.reader', 'rosbags.typesys'),
-        *('pyarrow.parquet', 'tqdm', 'yaml', 'zstandard', 'distributed'),
-    ]
-)
 
 
 def run_installed(*arguments: object) -> subprocess.CompletedProcess:
@@ -53,7 +31,7 @@ def run(*arguments: object) -> subprocess.CompletedProcess:
     with tempfile.TemporaryDirectory() as folder:
         streams = [Path(folder, name) for name in ('stdout', 'stderr')]
         place = (Path.cwd(), dict(os.environ))
-        process = _FORKS.Process(target=_run_main, args=(given, streams, *place))
+        process = FORKS.Process(target=_run_main, args=(given, streams, *place))
         process.start()
         process.join(TIME_LIMIT)
         if process.exitcode is None:
@@ -66,11 +44,7 @@ def run(*arguments: object) -> subprocess.CompletedProcess:
 def _run_main(
     arguments: list[str], streams: list[Path], folder: Path, environment: dict[str, str]
 ) -> None:
-    for number, stream in enumerate(streams, start=1):
-        os.dup2(os.open(stream, os.O_WRONLY | os.O_CREAT), number)
-    os.chdir(folder)
-    os.environ.clear()
-    os.environ.update(environment)
+    become(streams, folder, environment)
     sys.exit(main(arguments))
 
 

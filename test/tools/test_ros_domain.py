@@ -2,7 +2,9 @@
 
 import os
 
-from ros_domain import own_domain
+from rclpy.node import Node
+from ros_domain import free_domain, in_domain, is_silent, own_domain
+from ros_programs import spinning, wait_for
 
 
 def test_a_domain_within_another_leaves_that_as_it_was(ros_domain):
@@ -11,3 +13,11 @@ def test_a_domain_within_another_leaves_that_as_it_was(ros_domain):
         assert other != ros_domain
         assert os.environ['ROS_DOMAIN_ID'] == str(other)
     assert os.environ['ROS_DOMAIN_ID'] == str(ros_domain)
+
+
+def test_a_domain_in_which_somebody_is_who_took_none_is_not_silent():
+    with free_domain() as domain, in_domain(domain):
+        assert is_silent(domain)
+        with spinning(lambda context: Node('stranger', context=context)):
+            assert not is_silent(domain)
+        wait_for('it to be left', lambda: is_silent(domain))

@@ -9,11 +9,12 @@ from contextlib import ExitStack
 import numpy as np
 import pytest
 from browser import BrowserMissingError, chromium
+from forked_programs import ForkedProgram
 from live_page import LivePage, forwarded, view_url
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from ros_domain import free_domain, in_domain
-from ros_programs import Program, spinning, wait_for
+from ros_programs import spinning, wait_for
 from std_msgs.msg import String
 
 from tendon_statics import default_design_path, load_design, solve
@@ -65,7 +66,7 @@ class Rig:
 
     def running(self, namespace, name, *arguments):
         moved = ('-r', f'__ns:=/{namespace}') if namespace else ()
-        return Program.running(name, '--ros-args', *moved, *arguments)
+        return ForkedProgram.running(name, '--ros-args', *moved, *arguments)
 
     def driving(self, joint, rate=50.0, tensions=None):
         path = self.folder / f'{joint}.csv'

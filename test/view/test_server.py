@@ -10,6 +10,7 @@ from urllib.error import URLError
 from urllib.request import urlopen
 
 import pytest
+from forked_programs import ForkedProgram
 from live_page import view_url
 from make_docs import ROOT
 from ros_domain import free_domain, in_domain
@@ -22,9 +23,9 @@ def domain():
         yield
 
 
-def view(*parameters):
+def view(*parameters, kind=ForkedProgram):
     arguments = [part for parameter in parameters for part in ('-p', parameter)]
-    return Program.running('view', '--ros-args', *arguments)
+    return kind.running('view', '--ros-args', *arguments)
 
 
 @pytest.fixture(scope='module')
@@ -118,7 +119,7 @@ def test_a_missing_library_is_said_in_a_line_with_the_remedy(tmp_path, monkeypat
     stand_in = "raise ModuleNotFoundError(\"No module named 'bokeh'\", name='bokeh')"
     (tmp_path / 'bokeh.py').write_text(stand_in)
     monkeypatch.setenv('PYTHONPATH', f'{tmp_path}:{os.environ["PYTHONPATH"]}')
-    with view('port:=0') as program:
+    with view('port:=0', kind=Program) as program:
         assert_refused(program, 'Bokeh', "pip install '.[view]'")
 
 
@@ -126,7 +127,7 @@ def test_missing_interfaces_are_said_in_a_line(tmp_path, monkeypatch):
     stand_in = "raise ImportError('no interfaces here')"
     (tmp_path / 'tendon_statics_interfaces.py').write_text(stand_in)
     monkeypatch.setenv('PYTHONPATH', f'{tmp_path}:{os.environ["PYTHONPATH"]}')
-    with view('port:=0') as program:
+    with view('port:=0', kind=Program) as program:
         assert_refused(program, 'no interfaces here', 'interfaces/')
 
 
