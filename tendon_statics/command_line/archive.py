@@ -29,6 +29,7 @@ from .options import (
     add_load_options,
     design_name,
     print_json,
+    say_written,
     unit_from,
 )
 from .progress import with_progress
@@ -117,6 +118,7 @@ def run(options: argparse.Namespace) -> int:
         print_json(_as_dict(dataset, outcomes, others))
     else:
         print(fact_lines(facts))
+    say_written(options.output, options)
     return _report(rows)
 
 

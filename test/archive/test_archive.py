@@ -322,6 +322,7 @@ def test_what_is_not_below_the_folders_any_more_stays_and_is_said(cluster, tmp_p
     assert code == 0
     assert rows(output).keys() == {'a/runs/one.csv', 'b/runs/one.csv', 'runs/one.csv'}
     assert '1 of earlier runs' in out
+    assert out.endswith(f'wrote {output}\n')
 
 
 def test_with_calibrate_there_are_fitted_values_with_their_errors(cluster, tmp_path, capsys):
