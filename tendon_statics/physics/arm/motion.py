@@ -102,28 +102,34 @@ class Motion:
 
     def change(self) -> None:
         """Stop what has met its stop or falls below its limit, and free what has come to it."""
+        angles, stopped = list(self.look.angles), False
+        for joint, side in list(self.moving.items()):
+            if side * (angles[joint] - self._from[joint]) < 0.0:  # has gone back a little
+                angles[joint] = self._from[joint]
+            elif side * angles[joint] >= self.stops[joint] - TOLERANCE:
+                angles[joint] = side * self.stops[joint]
+            else:
+                continue
+            stopped = True
+            del self.moving[joint]
+        if stopped:
+            self.take(self._excess.at(angles))
+        for joint in self._falling():
+            del self.moving[joint]
+        self.at_limit = {}
+        self.free()
+
+    def _falling(self) -> list[int]:
+        """Return the moving joints below their limit, but for what has only overshot its rest.
+
+        That is told by how the motion goes on, so without what has met its stop.
+        """
         sides = np.array(list(self.moving.values()))
         velocity = self.velocity(self.look)
         falls = sides * velocity < 0.0
         if falls.any():
-            # Not what has only overshot the place at which it comes to rest.
             falls &= sides * (self.jacobian(self.look) @ velocity) < 0.0
-        angles, stopped = list(self.look.angles), False
-        for (joint, side), is_falling in zip(list(self.moving.items()), falls, strict=True):
-            if side * (angles[joint] - self._from[joint]) < 0.0:  # has gone back a little
-                angles[joint] = self._from[joint]
-                stopped = True
-                del self.moving[joint]
-            elif side * angles[joint] >= self.stops[joint] - TOLERANCE:
-                angles[joint] = side * self.stops[joint]
-                stopped = True
-                del self.moving[joint]
-            elif is_falling:
-                del self.moving[joint]
-        if stopped:
-            self.take(self._excess.at(angles))
-        self.at_limit = {}
-        self.free()
+        return [joint for joint, is_falling in zip(self.moving, falls, strict=True) if is_falling]
 
     def come_to_rest(self, look: Look) -> None:
         """Go to where M = K of all that move; what comes to its limit there sets out from there.

@@ -20,12 +20,16 @@ from .flow import Settled
 
 Floats = NDArray[np.float64]
 
+BARELY = 1e-3
+"""Share of K below its limit at which a joint that has slipped counts as at it: what moved on
+after it took so little off, that its place is that at the limit, to first order"""
+
 
 def spread_after(excess: Excess, settled: Settled, before: Floats) -> Floats:
     """Return the covariance of all bend angles, over the variance of a tension, in rad²/N².
 
-    NaN where it is not known: of a joint that came to rest within its limit while others moved
-    on, and of those that depend on it.
+    NaN where it is not known: of a joint that came to rest while others moved on, and took it
+    from its limit by more than `BARELY`, and of those that depend on it.
 
     Parameters
     ----------
@@ -34,18 +38,19 @@ def spread_after(excess: Excess, settled: Settled, before: Floats) -> Floats:
     """
     look, stops = settled.look, excess.arm.stops
     count = len(stops)
+    at_limit = settled.at_limit | _barely_below(settled, stops)
     after: Floats = before.copy()
     for joint in settled.moved:
         at_stop = abs(look.angles[joint]) == stops[joint]
         after[joint, :] = after[:, joint] = 0.0 if at_stop else math.nan
         after[joint, joint] = 0.0 if at_stop else math.nan
-    at = list(settled.at_limit)
+    at = list(at_limit)
     if not at:
         return after
     rest = [joint for joint in range(count) if joint not in at]
-    by_all = excess.jacobian(look, settled.at_limit, list(range(count)))
+    by_all = excess.jacobian(look, at_limit, list(range(count)))
     by_tension = np.array(
-        [excess.by_base_tensions(joint, side, look) for joint, side in settled.at_limit.items()]
+        [excess.by_base_tensions(joint, side, look) for joint, side in at_limit.items()]
     )
     try:
         inverse = -np.linalg.inv(by_all[:, at])
@@ -62,3 +67,13 @@ def spread_after(excess: Excess, settled: Settled, before: Floats) -> Floats:
     for joint, row in zip(at, found, strict=True):
         after[joint, at] = row
     return after
+
+
+def _barely_below(settled: Settled, stops: tuple[float, ...]) -> dict[int, float]:
+    """Return the joints that others took from their limit, but hardly → the side of it."""
+    look, found = settled.look, {}
+    for joint in settled.moved - settled.at_limit.keys():
+        side, excess, capacity = look.drive(joint)
+        if abs(look.angles[joint]) < stops[joint] and excess >= -BARELY * capacity:
+            found[joint] = side
+    return found
