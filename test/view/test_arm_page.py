@@ -6,9 +6,9 @@ from contextlib import ExitStack
 import numpy as np
 import pytest
 from browser import BrowserMissingError, chromium
+from forked_programs import ForkedProgram
 from live_page import LivePage, view_url
 from ros_domain import free_domain, in_domain
-from ros_programs import Program
 
 from tendon_statics import ArmTracker, load_arm
 from tendon_statics.files.installed_files import installed_config
@@ -43,7 +43,7 @@ def played(tmp_path_factory):
 def driving(played, namespace='/'):
     # The arm's driver takes its cables from the arm's file.
     given = ('-p', f'arm_file:={FILE}', '-p', f'file:={played}', '-p', 'rate:=20.0')
-    return Program.running('pulley_driver', '--ros-args', '-r', f'__ns:={namespace}', *given)
+    return ForkedProgram.running('pulley_driver', '--ros-args', '-r', f'__ns:={namespace}', *given)
 
 
 @pytest.fixture(scope='module')
@@ -52,13 +52,13 @@ def url(played):
     with free_domain() as domain, in_domain(domain), ExitStack() as stack:
         of_arm = ('--ros-args', '-p', f'arm_file:={FILE}', '-p', 'tension_stddev:=0.01')
         for program in (
-            Program.running('arm_estimator', *of_arm),
+            ForkedProgram.running('arm_estimator', *of_arm),
             driving(played),
-            Program.running('estimator', '--ros-args', '-r', '__ns:=/unit'),
-            Program.running('pulley_driver', '--ros-args', '-r', '__ns:=/unit'),
+            ForkedProgram.running('estimator', '--ros-args', '-r', '__ns:=/unit'),
+            ForkedProgram.running('pulley_driver', '--ros-args', '-r', '__ns:=/unit'),
         ):
             stack.enter_context(program)
-        view = stack.enter_context(Program.running('view', '--ros-args', '-p', 'port:=0'))
+        view = stack.enter_context(ForkedProgram.running('view', '--ros-args', '-p', 'port:=0'))
         yield view_url(view)
         said = view.output()
         assert not any(word in said for word in ('WARN', 'ERROR', 'Traceback')), said
@@ -137,7 +137,7 @@ def test_an_arm_fits_a_phone(url, browser):
 
 def test_an_arm_without_tensions_is_stale_also_for_who_comes_later(url, browser, played):
     named = ('-r', '__ns:=/other', '-p', f'arm_file:={FILE}')
-    with Program.running('arm_estimator', '--ros-args', *named):
+    with ForkedProgram.running('arm_estimator', '--ros-args', *named):
         with driving(played, '/other'), LivePage(browser, url) as page:
             look_at(page, '/other/arm_estimator')
             page.wait_for_words('arm_joint_5')
