@@ -38,7 +38,7 @@ def tracked(*rows):
 def filtered(*rows):
     arm = ArmFilter(ARM, tension_stddev=0.02)
     state = [arm.update(row, time=0.01 * number) for number, row in enumerate(rows)][-1]
-    found = FilteredArmEstimate(state, KnownLoad(Load()), SETTINGS)
+    found = FilteredArmEstimate(state, KnownLoad(Load()), SETTINGS, 0.01 * len(rows))
     return fill_arm_estimate(ArmEstimate(), found, Header())
 
 
