@@ -20,6 +20,9 @@ os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
 LISTENERS = {'listener', 'running', 'filtering'}
 """Fixtures that listen to an estimator"""
 
+OVER_ROS = {'Program', 'ForkedProgram', 'Listener', 'ArmClient', 'spinning'}
+"""What a module of tests of the node imports, of these"""
+
 
 def pytest_xdist_auto_num_workers(config):
     """Two workers a core, since tests of the node mostly wait for one another's processes.
@@ -36,10 +39,8 @@ def pytest_xdist_auto_num_workers(config):
 def pytest_collection_modifyitems(items):
     """Mark the tests of the node: those that run a program, or listen to one; and a browser's."""
     for item in items:
-        there = vars(item.module)
-        if not {'Program', 'ForkedProgram', 'Listener'}.isdisjoint(
-            there
-        ) or not LISTENERS.isdisjoint(item.fixturenames):
+        uses_ros = not OVER_ROS.isdisjoint(vars(item.module))
+        if uses_ros or not LISTENERS.isdisjoint(item.fixturenames):
             item.add_marker(pytest.mark.node)
         if 'browser' in item.fixturenames:
             item.add_marker(pytest.mark.browser)

@@ -148,10 +148,15 @@ class ArmClient(Node):
 
     def answer(self, tensions: Mapping[str, float]) -> ArmEstimate:
         """Publish valid tensions and return the estimate of them."""
-        before = len(self.estimates)
-        self.send(tensions)
-        wait_for(f'an answer to {tensions}', lambda: len(self.estimates) > before)
-        return self.estimates[before]
+        stamp = self.get_clock().now().to_msg()
+        self.send(tensions, stamp)
+
+        def found() -> list[ArmEstimate]:
+            # By its stamp, since an answer to what was sent before may come as late.
+            return [estimate for estimate in self.estimates if estimate.header.stamp == stamp]
+
+        wait_for(f'an answer to {tensions}', found)
+        return found()[0]
 
     def measure(self, **angles: float) -> None:
         """Publish measured angles of joints by name."""
