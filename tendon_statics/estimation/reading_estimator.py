@@ -109,7 +109,7 @@ class ReadingEstimator(ABC, Generic[S, E]):
         known : KnownLoad
             What acts beside them.
         now : float
-            The present, in s.
+            When they came, in s of a steady clock.
         measured : float
             When they were measured, on any clock in s; NaN if that is not known.
 

@@ -204,8 +204,10 @@ class ManagedEstimator(KindOfEstimator[S, E]):
             offset = measured - 1e-9 * self.get_clock().now().nanoseconds
             self.health.note_offset(offset, core.settings.max_clock_offset)
         was_stale = self.health.stale
+        # What waited because this node was busy is no gap in what it was sent.
+        arrived = time.monotonic() - lag
         try:
-            estimate = core.take_readings(reading.values, known, time.monotonic(), measured)
+            estimate = core.take_readings(reading.values, known, arrived, measured)
         except ReadingError as error:
             self._say_dropped(error.reason, str(error))
             return

@@ -4,6 +4,7 @@ import time
 
 import pytest
 from list_entities import alone
+from ros_programs import wait_for
 from std_msgs.msg import Float64MultiArray
 
 from tendon_statics.node.estimator import Estimator
@@ -58,3 +59,20 @@ def test_every_message_is_answered_whatever_the_middleware_leaves_out(middleware
     assert all(before - 0.1 <= at <= time.time() for at in times)
     assert all(at >= before - 0.003 for at in times)
     assert (times[0] < before) == (middleware == FAST_DDS)
+
+
+@pytest.mark.parametrize('middleware', [FAST_DDS, CYCLONE_DDS])
+def test_what_waited_for_a_busy_node_is_no_gap_where_its_arrival_is_known(middleware):
+    """An angle that is followed stays assured though the node is late by more than the timeout."""
+    timeout = 0.05
+    tracking = ('estimation:=tracking', f'input_timeout:={timeout}')
+    arguments = [part for value in tracking for part in ('-p', value)]
+    with alone(Estimator, *arguments) as node:
+        published = []
+        node._outputs.publish = lambda estimate, *_, **__: published.append(estimate)
+        (tensions,) = [of for of in node.subscriptions if of.topic_name == '/tensions']
+        for info in infos(middleware, 2):
+            tensions.callback(Float64MultiArray(data=[1.0, 1.5]), info)
+            taken = time.monotonic()
+            wait_for('the timeout', lambda since=taken: time.monotonic() > since + 2.0 * timeout)
+    assert [estimate.angle_assured for estimate in published] == [True, middleware == FAST_DDS]
