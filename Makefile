@@ -121,4 +121,6 @@ $(made)install/.complete: $(made).venv/.complete $(sources)
 	    --install-base $(made)install --event-handlers console_cohesion- console_stderr- \
 	    desktop_notification- summary- \
 	  || { echo 'tendon_statics: the build failed; $(made)log/latest_build has why' >&2; exit 1; }
+	@# Else each start compiles all anew, where the shell forbids to keep byte code.
+	@$(run) python -m compileall -q $(@D)/*/lib/python3*/site-packages
 	@touch $@

@@ -2,12 +2,15 @@
 
 import ast
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 from make_docs import ROOT
 
 import tendon_statics
+from tendon_statics.files.installed_files import installed_config
 
 PACKAGE = Path(tendon_statics.__file__).parent
 
@@ -124,3 +127,14 @@ def test_the_page_names_every_file_of_the_physics():
     there |= {f'{path.parent.name}/' for path in folder.glob('*/__init__.py')}
     named = set(re.findall(r'`(\w+(?:\.py|/))`', section)) - {'law.py'}
     assert named == there
+
+
+def test_who_only_solves_does_not_wait_for_numpy():
+    """Its import takes as long as all the rest, also with the file of a design."""
+    code = (
+        'import sys; from tendon_statics.command_line.main import main; '
+        "main(['solve', '--tension-l', '1', '--tension-s', '2', *sys.argv[1:]]); "
+        "sys.exit('numpy' in sys.modules)"
+    )
+    for given in ((), ('--design', str(installed_config('preliminary_design.yaml')))):
+        subprocess.run([sys.executable, '-c', code, *given], check=True, stdout=subprocess.DEVNULL)

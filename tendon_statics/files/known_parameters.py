@@ -6,11 +6,8 @@ import re
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 
-from .arm_parameters import ARM_PARAMETERS, CABLES
-from .driver_parameters import DRIVER_PARAMETERS
 from .estimator_parameters import known_names
 from .parameter_kinds import Parameter, SettingError, SwitchParameter
-from .view_parameters import VIEW_PARAMETERS
 
 QOS = 'qos_overrides.'
 """What the names of parameters begin with that override the quality of service of a topic"""
@@ -40,9 +37,17 @@ def unknown_names(names: Iterable[str]) -> list[str]:
     One file may serve all programs, so what is of another is left alone; and so is the quality of
     service, of which only the node knows its topics.
     """
-    of_others = (*DRIVER_PARAMETERS, *VIEW_PARAMETERS, *ARM_PARAMETERS, *OF_ROS)
-    known = known_names() | {of.name for of in of_others}
-    return [name for name in names if not (name in known or name.startswith((CABLES, QOS)))]
+    known = known_names() | {of.name for of in OF_ROS}
+    left = [name for name in names if not (name in known or name.startswith(QOS))]
+    if not left:
+        return []
+    # Here, for an arm takes NumPy, whose import the file of a unit need not wait for.
+    from .arm_parameters import ARM_PARAMETERS, CABLES
+    from .driver_parameters import DRIVER_PARAMETERS
+    from .view_parameters import VIEW_PARAMETERS
+
+    of_others = {of.name for of in (*DRIVER_PARAMETERS, *VIEW_PARAMETERS, *ARM_PARAMETERS)}
+    return [name for name in left if not (name in of_others or name.startswith(CABLES))]
 
 
 def said_of_unknown(names: Iterable[str], of_arm: bool = False) -> list[str]:
@@ -53,9 +58,14 @@ def said_of_unknown(names: Iterable[str], of_arm: bool = False) -> list[str]:
     of_arm : bool
         Whether those of an arm's estimator are meant.
     """
+    unknown = unknown_names(names)
+    if not unknown:
+        return []
+    from .arm_parameters import ARM_PARAMETERS
+
     known = sorted({of.name for of in ARM_PARAMETERS} if of_arm else known_names())
     found = []
-    for name in unknown_names(names):
+    for name in unknown:
         close = get_close_matches(name, known, 1, cutoff=0.85)
         found.append(
             f'{name} is no parameter of the estimator'

@@ -12,7 +12,6 @@ from ..physics.design import JointDesign
 from ..physics.design_uncertainty import DesignUncertainty
 from ..physics.errors import DesignError
 from ..tensions.cable_scale import CableScale
-from .arm_file import is_arm_file
 from .design_file import design_values
 from .known_parameters import check_parameters_of_ros, said_of_unknown
 from .parameter_file import node_parameters, only_for, read_parameters
@@ -91,6 +90,9 @@ def load_unit(path: str | Path, node: str = '') -> Unit:
             )
         JointDesign.from_mapping(design)  # whose error has the key
     except ParameterFileError as error:
+        # Here, for arms take NumPy, whose import a unit need not wait for.
+        from .arm_file import is_arm_file
+
         if is_arm_file(path):
             raise DesignError(
                 f'{path}: it is the file of an arm, where that of one unit is needed; what takes '

@@ -125,7 +125,7 @@ def check_flat(covariance: Sequence[float]) -> None:
         If they are no covariance.
     """
     width = math.isqrt(len(covariance))
-    if width * width == len(covariance):
+    if covariance and width * width == len(covariance):
         _check_definite(_rows(covariance, width))
 
 
