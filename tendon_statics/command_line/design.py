@@ -45,7 +45,10 @@ def run(options: argparse.Namespace) -> None:
     if others:
         print('\nbeside the design: ' + ', '.join(f'{name} {others[name]}' for name in others))
     if options.design:
+        estimation = unit.get('estimation') or ESTIMATIONS[0]
+        unsaid = estimation == 'filtering' and 'tension_stddev' not in unit.parameters
         print(
-            f'\nThe file is sound: estimation {unit.get("estimation") or ESTIMATIONS[0]}, '
+            f'\nThe file is sound: estimation {estimation}, '
             f'noise of {unit.settings.tension_stddev:g} N on each tension'
+            + (', which nobody gave: set tension_stddev to that of the load cells' * unsaid)
         )

@@ -99,6 +99,7 @@ def run(options: argparse.Namespace) -> int:
             unit = unit.with_uncertainty(calibration.uncertainty)
         else:
             of = f'{design_name(options)}, since the fit does not determine a design'
+            note = 'tendon-statics: the report is written, but the fit does not determine a design'
         facts = [('start', design_name(options)), *assumed_facts(options, recording)]
         fitted = _calibration_part(fit, recording, facts)
     parts += [

@@ -57,6 +57,7 @@ class ManagedEstimator(KindOfEstimator[S, E]):
         self._has_run = False
 
         self._declare()
+        self._warn_of_unsaid_noise()
         sees_numbers = self.wiring.executor == 'single'
         self.health = self._new_health(counts_lost=sees_numbers)
         self._outputs = self._new_outputs()
@@ -189,6 +190,17 @@ class ManagedEstimator(KindOfEstimator[S, E]):
     def note_set(self, names: set[str]) -> None:
         """Note that parameters of these names have been set."""
         self.left_out -= names
+
+    def _warn_of_unsaid_noise(self) -> None:
+        """Warn that a filter takes for its noise what nobody said it is."""
+        if (
+            self.wiring.estimation == 'filtering'
+            and 'tension_stddev' not in self._parameter_overrides
+        ):
+            self.get_logger().warning(
+                'estimation is filtering, and no tension_stddev came: 0.01 N is taken for the '
+                'noise of each tension, and intervals are as wide as that says'
+            )
 
     # Topics
 

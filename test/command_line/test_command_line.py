@@ -176,6 +176,10 @@ def test_design_shows_what_else_is_set_and_names_what_is_ignored(tmp_path):
     assert 'The file is sound: estimation filtering, noise of 0.02 N' in done.stdout
     assert 'colour is no parameter of the estimator, which ignores it' in done.stderr
     assert 'is input_timeout meant?' in done.stderr
+    assert 'nobody gave' not in done.stdout
+    file.write_text(file.read_text(encoding='utf-8').replace('tension_stddev: 0.02', ''))
+    unsaid = 'noise of 0.01 N on each tension, which nobody gave: set tension_stddev'
+    assert unsaid in run('design', '--design', file).stdout
 
 
 def test_design_shows_every_value():

@@ -8,6 +8,7 @@ from contextlib import ExitStack
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticStatus
+from forked_programs import ForkedProgram
 from list_entities import alone
 from listener import Listener, reliable_input
 from programs import run
@@ -248,3 +249,13 @@ def test_what_is_no_covariance_of_the_design_is_refused_while_the_node_runs():
         assert node.core.settings.design_uncertainty.stddev('friction_coefficient') == 0.03
         assert change([], []).successful
         assert node.core.settings.design_uncertainty is None
+
+
+@pytest.mark.parametrize('given', [True, False])
+def test_a_filter_whose_noise_nobody_gave_says_what_it_takes_for_it(given):
+    noise = ('-p', 'tension_stddev:=0.01') if given else ()
+    with ForkedProgram.running(
+        'estimator', '--ros-args', '-p', 'estimation:=filtering', *noise
+    ) as program:
+        wait_for('it to be ready', lambda: 'Ready: filtering' in program.output())
+        assert ('no tension_stddev came: 0.01 N is taken' in program.output()) != given

@@ -22,6 +22,7 @@ def test_a_quantity_is_read_with_each_of_its_units(quantity):
         ('pressure (kPa)', r'pressure \[kPa\]'),
         ('tension_l(mN)', r'tension_l \[mN\]'),
         ('bend_angle_deg', r'bend_angle \[deg\]'),
+        ('bend_angle_deg', '--columns bend_angle="bend_angle_deg" --units bend_angle=UNIT;'),
         ('bend_angle_degrees', 'bend_angle or'),
         ('bend_angle °', 'bend_angle or'),
         ('pressure, psi', 'pressure or'),

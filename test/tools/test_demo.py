@@ -30,6 +30,7 @@ def test_the_demo_shows_a_sound_session_every_regime_and_what_to_do_next():
     assert rest.startswith('OK, ')
     assert 'equilibrium, 17.14 deg ± 7.04, 405.6 Pa' in rest
     assert 'SIGINT' not in printed
+    assert '2 publishers' not in printed
     named = re.findall(r'(?:tools|docs)/\S+', printed[printed.index('What next') :])
     assert named
     assert all((ROOT / name).is_file() for name in named)

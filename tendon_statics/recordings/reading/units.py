@@ -89,10 +89,11 @@ class Quantities:
             return name, 1.0 if unit is None else self.factor(name, unit)
         for quantity, pattern in self._miswritten.items():
             if name != quantity and pattern.fullmatch(title):
+                of_unit = f' --units {quantity}=UNIT' if self.has_units(quantity) else ''
                 raise RecordingError(
                     f'there is a column {title!r}, which would be overlooked: write '
                     f'{self._as_to_write(quantity, title)}, or say --columns '
-                    f'{quantity}="{title}"; what is something else needs another name'
+                    f'{quantity}="{title}"{of_unit}; what is something else needs another name'
                 )
         return name, 1.0
 
