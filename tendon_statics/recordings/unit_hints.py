@@ -32,8 +32,8 @@ SLOWEST, FASTEST = 2.5, 5e-5
 LONG = 10
 """Samples of a table that is not a list made by hand"""
 
-_DAYS = (2e4, 8e4)
-"""Days since 1900 in which a spreadsheet writes times of today"""
+_DAYS = (2e4, 8e4), (7e5, 8e5)
+"""Days since 1900 in which a spreadsheet writes times of today, and since year 0 as MATLAB"""
 
 _COUNTS = {2: 'two'}
 
@@ -175,10 +175,15 @@ def of_time(recording: Session, timeout: float) -> Iterator[str]:
             f'time is in ms, us or ns, say so, time [{unit}] or --units time={unit}'
         )
     if step < FASTEST:
-        first, last = _DAYS
-        is_of_days = recording.time_origin == 0 and (first < times).all() and (times < last).all()
+        is_of_days = recording.time_origin == 0 and any(
+            (first < times).all() and (times < last).all() for first, last in _DAYS
+        )
         yield (
             f'there are only {step:.4g} s from one sample to the next: the unit of the time may '
             'be a larger one'
-            + (', as days of a spreadsheet are: --units time=d says so' if is_of_days else '')
+            + (
+                ', as days of a spreadsheet or of MATLAB are: --units time=d says so'
+                if is_of_days
+                else ''
+            )
         )

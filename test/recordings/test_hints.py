@@ -41,6 +41,7 @@ TIMES = np.arange(5.0)
         ({'time': 1e-8 * TIMES}, 'may be a larger one'),
         ({'time': 1e-5 * TIMES}, 'may be a larger one'),
         ({'time': 46353.0 + 1e-7 * TIMES}, '--units time=d'),
+        ({'time': 739948.0 + 1e-7 * TIMES}, '--units time=d'),
         ({'tension_l': 10.0 * ONES, 'tension_s': 15.0 * ONES}, '--units tension=gf'),
     ],
 )

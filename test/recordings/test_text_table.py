@@ -53,6 +53,10 @@ LABVIEW = (
         ('%time,tension_l,tension_s\n0,1,1.5\n1,1,1.6\n', ('the column %time, in s',)),
         ('time,tension_l,tension_s\ns,N,N\n0,1,1.5\n1,1,1.6\n', ('units: those of line 2',)),
         (
+            'time,tension_l,tension_s\nseconds,Millinewton,Newton\n0,1000,1.5\n1,1000,1.6\n',
+            ('units: those of line 2', 'time [seconds], in s'),
+        ),
+        (
             'time,tension_l,tension_s,note\n[ms],[mN],[mN],\n0,1000,1500,a\n1000,1000,1600,b\n',
             ('units: those of line 2',),
         ),
@@ -122,6 +126,14 @@ def test_where_each_channel_of_labview_has_times_units_stand_above_theirs(file, 
     recording = load_recording(file(text, 'run.lvm')).whole()
     assert recording.tensions() == PAIRS
     assert recording.time.tolist() == [0.0, 0.01]
+
+
+@pytest.mark.parametrize('steps', ['0.01\t\t0.02', '0.01\t0.02'])
+def test_channels_of_labview_that_were_measured_at_other_times_are_no_pairs(file, steps):
+    text = CHANNELS.format(columns='Multi', units='N\tN', steps=steps)
+    text += 'X_Value\ttension_l\tX_Value\ttension_s\tComment\n0.0\t1.0\t0.0\t1.5\n'
+    with pytest.raises(RecordingError, match=r'their Delta_X is 0.01 and 0.02.*one X column'):
+        load_recording(file(text, 'run.lvm'))
 
 
 def test_what_the_preamble_of_labview_does_not_tell_names_the_options(file):
@@ -298,6 +310,7 @@ def test_options_that_no_table_can_meet_are_refused_before_one_is_read(given, na
         ({'columns': {'tension_l': 'F3', 'tension_s': 'F2'}}, "no column 'F3' to be tension_l"),
         ({'columns': {'tension_l': 'F1', 'tension_s': 'F2'}}, "2 columns 'F1'"),
         ({'columns': {'tension_l': 'F2', 'tension_s': 'F4'}, 'units': {'tension': 'N'}}, 'says N'),
+        ({'columns': {'tension_l': 'F2', 'tension_s': 'F2'}}, 'both tension_l and tension_s'),
     ],
 )
 def test_an_option_that_does_not_fit_the_table_is_refused(file, options, named):
@@ -315,17 +328,20 @@ def test_pairs_of_an_option_that_are_none_are_refused(text):
     'title',
     [
         *('Kraft links / mN', 'Fz1/mN', 'Fz1 in mN', 'Fz1, mN', 'Fz1 (mN)', 'Fz1 [mN]'),
-        *('Fz1 (Millinewton)', 'F 1 / millinewtons'),
+        *('Fz1 (Millinewton)', 'F 1 / millinewtons', 'tension_l_mN', 'Fz1 mN', 'Fz1-millinewton'),
     ],
 )
 def test_the_unit_of_a_title_that_is_named_counts_however_it_stands_there(file, title):
     path = file(f'time;{title};tension_s\n0;1000;1.5\n1;1000;1.6\n')
-    for name in (title, re.split(r'[,/(\[]| in ', title)[0].strip()):
+    for name in (title, re.split(r'[,/(\[-]| in |[ _](?=mN)', title)[0].strip()):
         recording = load_recording(path, table=TableOptions(columns={'tension_l': name})).whole()
         assert recording.tensions() == PAIRS
 
 
-@pytest.mark.parametrize('title', ['F (kg)', 'F [lbf]', 'F / g', 'F in oz', 'F (kg force)'])
+@pytest.mark.parametrize(
+    'title',
+    ['F (kg)', 'F [lbf]', 'F / g', 'F in oz', 'F (kg force)', 'tension_l_g', 'F lbf'],
+)
 def test_a_unit_that_is_not_read_is_not_taken_for_newtons_until_an_option_says_so(file, title):
     path = file(f'time;{title};tension_s\n0;1;1.5\n1;1;1.6\n')
     columns = {'tension_l': title}
@@ -334,6 +350,48 @@ def test_a_unit_that_is_not_read_is_not_taken_for_newtons_until_an_option_says_s
             load_recording(path, table=TableOptions(columns=columns))
     said = TableOptions(columns=columns, units={'tension_l': 'N'})
     assert load_recording(path, table=said).whole().tensions() == PAIRS
+
+
+def test_a_normal_force_is_not_taken_to_be_in_newtons_by_its_name(file):
+    options = TableOptions(columns={'tension_l': 'F_N', 'tension_s': 'F_s'})
+    assert not load_recording(file('F_N,F_s\n1,1.5\n'), table=options).in_newtons
+
+
+@pytest.mark.parametrize(
+    'text', ['tension_l [lbf];tension_s [V]\n', 'tension_l;tension_s\nlbf;lbf\n']
+)
+def test_the_option_that_an_error_names_reads_the_table(file, text):
+    path = file(f'{text}1;1.5\n1;1.6\n')
+    with pytest.raises(RecordingError, match=r'not known.*--units tension_l=UNIT'):
+        load_recording(path)
+    said = TableOptions(units={'tension': 'N'})
+    assert load_recording(path, table=said).whole().tensions() == PAIRS
+
+
+def test_a_unit_that_is_written_out_in_the_title_is_not_another_by_an_option(file):
+    path = file('F [Newton],tension_s\n1,1.5\n')
+    options = TableOptions(columns={'tension_l': 'F'}, units={'tension_l': 'mN'})
+    with pytest.raises(RecordingError, match='stands in its title, and --units says mN'):
+        load_recording(path, table=options)
+
+
+@pytest.mark.parametrize(
+    'rows',
+    [
+        '0;1,000;1,500\n1;1,000;1,600\n',
+        '0;1,000;1,500;0.5\n1;100;200;0.5\n',
+        '0;"12,000";"1,500"\n1;0;0\n',
+    ],
+)
+def test_commas_that_may_stand_between_thousands_are_not_guessed_at(file, rows):
+    path = file(f'time;tension_l;tension_s{";x" * (".5" in rows)}\n{rows}')
+    with pytest.raises(
+        RecordingError, match=r"'1\d?,000' is a few or some thousands: --decimal ,"
+    ):
+        load_recording(path)
+    assert load_recording(path, table=TableOptions(decimal=',')).tension_s[0] == 1.5
+    sure = file(f'time;tension_l;tension_s\n{"0;1,000;1,500" + chr(10)}0;0,900;1,500\n')
+    assert load_recording(sure).tension_l.tolist() == [1.0, 0.9]
 
 
 def test_titles_with_commas_blanks_and_quotes_can_be_named(file):

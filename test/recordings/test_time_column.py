@@ -70,6 +70,16 @@ def test_times_since_1970_tell_their_unit(tmp_path, title, unit):
         assert f'in {unit} since 1970' in recording.notes[0]
 
 
+@pytest.mark.parametrize('digits', ['', '000'])
+def test_dates_and_times_without_marks_are_no_ms_since_1970(tmp_path, digits):
+    path = written(tmp_path, 'time', f'20261127100000{digits}', f'20261127100001{digits}')
+    with pytest.raises(
+        RecordingError, match=r'20261127100000.* without marks: write it as in 2026'
+    ):
+        load_recording(path)
+    assert len(load_recording(path, table=TableOptions(units={'time': 'ms'})).time) == 2
+
+
 def test_a_unit_that_is_said_is_not_doubted(tmp_path):
     path = written(tmp_path, 'time', 1e12, 2e12)
     said = load_recording(path, table=TableOptions(units={'time': 's'}))

@@ -15,16 +15,16 @@ from .time_titles import (
     place_of_nanoseconds,
     time_unit,
 )
-from .units import Quantities, common_unit, split_title
+from .units import Quantities, split_title
 
 _ONLY_NUMBERS = re.compile(r'[-+.,;|\s\deE]*\d[-+.,;|\s\deE]*')
 """One, or several in a line whose separator the titles do not tell"""
 
 _LOOSE_UNIT = re.compile(
     r'(?P<name>.*?[^\W_].*?)\s*(?:\(\s*(?P<inside>[^()]*?)\s*\)'
-    r'|(?:\s*/\s*|,\s*|\s+in\s+)(?P<after>[^\W\d_]+|°))'
+    r'|(?:\s*/\s*|,\s*|\s+in\s+)(?P<after>[^\W\d_]+|°)|[\W_]+(?P<last>[^\W\d_]+|°))'
 )
-"""A title with a unit in round brackets or after a stroke, a comma or ``in``"""
+"""A title with a unit in round brackets or after a stroke, a comma or ``in``, or a last word"""
 
 
 class Column(NamedTuple):
@@ -61,20 +61,25 @@ def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> 
     options = options or TableOptions()
     quantities = options.quantities
     found: dict[str, Column] = {}
+    named: dict[int, str] = {}
     for quantity, title in options.columns.items():
         found[quantity] = _named(quantity, title, titles, options)
-    named = {column.place for column in found.values()}
+        other = named.setdefault(found[quantity].place, quantity)
+        if other != quantity:
+            raise RecordingError(f'--columns says {title!r} is both {other} and {quantity}')
     by_itself: set[str] = set()
     for place, title in enumerate(titles):
         if place in named or split_title(title)[0] in options.columns:
             continue
-        name, factor = quantities.parse(title)
+        name, unit = split_title(title)
+        if not quantities.has_units(name):
+            name, _ = quantities.parse(title)
         if name not in quantities.kinds or name in options.columns:
             continue
         if name in by_itself:
             raise RecordingError(f'there are two columns of {name}')
         by_itself.add(name)
-        found[name] = Column(place, factor, split_title(title)[1] is not None)
+        found[name] = _column(place, name, unit, options)
     needed = quantities.required
     for name in needed:
         if name not in found:
@@ -133,11 +138,23 @@ def _named(quantity: str, title: str, titles: Sequence[str], options: TableOptio
             else f'there are {len(places)} columns {title!r}'
         )
     unit = _split(titles[places[0]], quantity, quantities)[1]
+    return _column(places[0], quantity, unit, options)
+
+
+def _column(place: int, quantity: str, unit: str | None, options: TableOptions) -> Column:
+    """Return a column in the unit of its title, or without one if an option has to say it.
+
+    Raises
+    ------
+    RecordingError
+        If it is in a unit that is not read, and no option says which it is in.
+    """
+    quantities = options.quantities
     if unit is None or not quantities.has_units(quantity):
-        return Column(places[0], 1.0)
-    if quantity in options.units and unit not in quantities.kinds[quantity].units:
-        return Column(places[0], 1.0)  # What the option says counts.
-    return Column(places[0], quantities.factor(quantity, unit), has_unit=True)
+        return Column(place, 1.0)
+    if quantity in options.units and quantities.common(quantity, unit) is None:
+        return Column(place, 1.0)  # What the option says counts.
+    return Column(place, quantities.factor(quantity, unit), has_unit=True)
 
 
 def _split(title: str, quantity: str, quantities: Quantities) -> tuple[str, str | None]:
@@ -149,11 +166,12 @@ def _split(title: str, quantity: str, quantities: Quantities) -> tuple[str, str 
     loose = _LOOSE_UNIT.fullmatch(title.strip())
     if unit is not None or loose is None or not quantities.has_units(quantity):
         return name, unit
-    kind = quantities.kinds[quantity]
-    unit = loose['after'] if loose['inside'] is None else loose['inside']
-    known = time_unit(unit) if quantity == 'time' else common_unit(unit, kind)
-    if known is None and unit.casefold() not in kind.foreign.casefold().split():
+    unit = next(text for text in loose.group('inside', 'after', 'last') if text is not None)
+    known = quantities.common(quantity, unit)
+    if known is None and not quantities.is_foreign(quantity, unit):
         return title.strip(), None
+    if unit in ('N', 'G') and loose['last']:
+        return title.strip(), None  # F_N is a normal force.
     return loose['name'], known or unit
 
 

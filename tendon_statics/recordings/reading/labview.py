@@ -61,8 +61,11 @@ def labview_form(lines: list[Line], options: TableOptions) -> TextForm:
         titles, _by_channel(header.get('Y_Unit_Label', ()), titles), options
     )
     notes += said
-    step = None
-    if find_columns(titles, options).time is None and options.rate is None:
+    columns, step = find_columns(titles, options), None
+    if X_TITLE in titles[1:]:
+        tensions = [columns.numbers[name].place for name in options.quantities.required]
+        _refuse_times_apart(header, titles, tensions)
+    if columns.time is None and options.rate is None:
         step, said = _step(header, len(starts))
         notes += said
     return TextForm(titles, separator, decimal, rows, notes, step)
@@ -108,6 +111,21 @@ def _with_units(
                 f'to be in SI or what a gain is for; --units {quantity}=UNIT says what it is in'
             )
     return found, notes
+
+
+def _refuse_times_apart(
+    header: Mapping[str, Sequence[str]], titles: Sequence[str], tensions: Sequence[int]
+) -> None:
+    """Raise RecordingError if tensions, each with times, were not measured together."""
+    for key in ('X0', 'Delta_X'):
+        told = _by_channel(header.get(key, ()), titles)
+        values = {_number(told[place]) for place in tensions if told.get(place)}
+        if len(values) > 1:
+            raise RecordingError(
+                f'its tensions were not measured at the same times, as their {key} is '
+                f'{" and ".join(f"{of:g}" for of in sorted(values))}: they have to be sampled '
+                'together, and saved with one X column or none'
+            )
 
 
 def _step(header: Mapping[str, Sequence[str]], segments: int) -> tuple[float | None, list[str]]:

@@ -23,6 +23,7 @@ LOOKED_AT = 100
 
 _SEPARATORS_ALONE = b' \t,;|"\r\n'
 _EXCEL_SEPARATOR = re.compile(rb'"?sep=(.)"?')
+_THOUSANDS = re.compile(r'[-+]?[1-9]\d{0,2},\d{3}')
 _DECIMAL_POINT = re.compile(r'[-+]?\d*\.\d*(?:[eE][-+]?\d+)?')
 
 
@@ -114,13 +115,9 @@ def _titles(
         find_columns([], options)
     # What is wrong with the tensions that were found, rather than that there are none; else what
     # there is by the separator that makes most titles.
-    of_found = [error for _, error in failures if 'no column' not in str(error)]
-    if of_found:
-        raise of_found[0]
-    raise (
-        _elsewhere(rows, skipped, separators, options)
-        or max(failures, key=lambda failure: failure[0])[1]
-    )
+    of_found = [failure for failure in failures if 'no column' not in str(failure[1])]
+    _, error = max(of_found or failures, key=lambda failure: failure[0])
+    raise (None if of_found else _elsewhere(rows, skipped, separators, options)) or error
 
 
 def _elsewhere(
@@ -202,8 +199,9 @@ def _with_units_row(
         return titles, rows, []
     names = [split_title(title) for title in titles]
     known = [
-        unit in quantities.kinds[name].units if quantities.has_units(name) else True
+        quantities.common(name, unit) is not None or quantities.is_foreign(name, unit)
         for (name, _), unit in zip(names, units, strict=False)
+        if quantities.has_units(name)
     ]
     numbers = any(field.replace('.', '').replace(',', '').strip('-+').isdigit() for field in units)
     if len(units) != len(titles) or numbers or not all(known) or not any(units):
@@ -223,7 +221,8 @@ def _decimal(
     Raises
     ------
     RecordingError
-        If some have commas and others points, or a comma separates both columns and decimals.
+        If some have commas and others points, a comma separates both columns and decimals, or
+        all with a comma may be thousands.
     """
     if options.decimal is not None:
         return options.decimal
@@ -232,6 +231,7 @@ def _decimal(
     if columns.time is not None:
         places.append(columns.time.place)
     with_comma = with_point = looked_at = longer = 0
+    sure, shown = False, ''
     for _, line in rows:
         if with_comma + with_point + (separator == ',') * looked_at >= LOOKED_AT:
             break
@@ -241,7 +241,10 @@ def _decimal(
         fields = _fields(line, separator)
         longer += len(fields) == 2 * len(titles)
         values = [fields[place] for place in places if place < len(fields)]
-        with_comma += any(DECIMAL_COMMA.fullmatch(value) is not None for value in values)
+        commas = [value for value in values if DECIMAL_COMMA.fullmatch(value)]
+        sure = sure or not all(map(_THOUSANDS.fullmatch, commas))
+        shown = shown or next(iter(commas), '')
+        with_comma += bool(commas)
         with_point += any(_DECIMAL_POINT.fullmatch(value) is not None for value in values)
     if separator == ',' and longer and longer == looked_at:
         raise RecordingError(
@@ -252,5 +255,10 @@ def _decimal(
         raise RecordingError(
             'some of its numbers have commas, others points; --decimal , or --decimal . says '
             'which separates decimals'
+        )
+    if with_comma and not sure:
+        raise RecordingError(
+            f'it is not sure whether {shown!r} is a few or some thousands: --decimal , '
+            'says that commas separate decimals; write numbers without those between thousands'
         )
     return ',' if with_comma else '.'

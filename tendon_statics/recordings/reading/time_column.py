@@ -9,13 +9,17 @@ import numpy as np
 
 from ..errors import RecordingError
 from ..session import Floats
-from .moments import UNKNOWN, has_zone, is_iso, is_of_day, is_span, nanoseconds_of
+from .moments import MOMENTS, UNKNOWN, has_zone, is_iso, is_of_day, is_span, nanoseconds_of
 from .time_titles import RANK_OF_STAMPS, parse_time_title, place_of_date, place_of_nanoseconds
 from .units import TIME
 
 _EPOCHS = ((1e17, 1e19, 'ns'), (1e14, 1e17, 'us'), (1e11, 1e14, 'ms'))
 """Between which a time, if since 1970, is in that unit: in a larger one it would lie beyond the
 year 5000"""
+
+_WRITTEN_OUT = ((1.9e13, 2.1e13), (1.9e16, 2.1e16))
+"""Between which a number is a date and time without marks, ``20261127100000``, if need be with
+ms"""
 
 DAY = 86_400_000_000_000
 """ns"""
@@ -88,11 +92,21 @@ def times_of(column: TimeColumn, values: Floats, nanoseconds: Floats | None = No
 
     Without a unit they are in s, unless they are so large that they can only be in ms, µs or ns
     since 1970.
+
+    Raises
+    ------
+    RecordingError
+        If they look like dates and times without marks.
     """
     unit, note = column.unit, ''
     if unit is None:
         finite = abs(values[np.isfinite(values)])
         first, last = (finite.min(), finite.max()) if len(finite) else (0.0, 0.0)
+        if any(least <= first and last < most for least, most in _WRITTEN_OUT):
+            raise RecordingError(
+                f'{first:.0f} in the column {column.title} looks like a date and time without '
+                f'marks: write it as in {MOMENTS}, or say --units time=UNIT if it is none'
+            )
         unit = next((u for least, most, u in _EPOCHS if least < first and last < most), 's')
         since = f' since 1970, as {last:.4g} s would be far from now' if unit != 's' else ''
         if since or column.title != 'time':

@@ -101,6 +101,15 @@ class Quantities:
         """Whether it is a quantity whose numbers are in some unit."""
         return name in self.kinds and self.kinds[name] is not TEXT
 
+    def common(self, quantity: str, unit: str) -> str | None:
+        """Return a unit of a quantity as it is written here, by any name; None if it is none."""
+        kind = self.kinds[quantity]
+        return time_unit(unit) if kind is TIME else common_unit(unit, kind)
+
+    def is_foreign(self, quantity: str, unit: str) -> bool:
+        """Whether it is a unit of a quantity which is not read, such as pounds."""
+        return unit.casefold() in self.kinds[quantity].foreign.casefold().split()
+
     def factor(self, quantity: str, unit: str) -> float:
         """Return what one of a unit is in SI.
 
@@ -111,7 +120,7 @@ class Quantities:
         """
         kind = self.kinds[quantity]
         units, is_time = kind.units, kind is TIME
-        unit = (time_unit(unit) if is_time else common_unit(unit, kind)) or unit
+        unit = self.common(quantity, unit) or unit
         if unit not in units:
             raise RecordingError(
                 f'the unit of {quantity} is {unit!r}, which is not known; there are '
