@@ -27,6 +27,10 @@ from .tensions import Tensions
 BOTH_SIDES = (1.0, -1.0)
 """Towards cable s and towards cable l"""
 
+FARTHEST = 1e9
+"""Times the tensions beyond which a force is no end: along a line across the unit's axis, or past
+the ball at just the friction's lever, rounding alone has the set end, at some 1e16 times"""
+
 AT_LIMIT = 1e-9
 """|M| / K − 1 within which a root is one of M = K, and not of the squared equation alone"""
 
@@ -109,12 +113,16 @@ class PushedUnit(NamedTuple):
         shares = self.design.law.forces_at_slip(
             (side * at_rest, side * by_force), axial, (side * across, side * across_by)
         )
-        return [self.total * share for share in shares]
+        return self._near(shares)
 
     def forces_at_lift(self) -> list[float]:
         """Return the forces in N at which the joint comes off its seat, or on it."""
         _, axial, across = self._lines
-        return [self.total * share for share in self.design.law.forces_at_lift(axial, across)]
+        return self._near(self.design.law.forces_at_lift(axial, across))
+
+    def _near(self, shares: Iterable[float]) -> list[float]:
+        """Return forces in N from their shares of T, but for those that count as infinite."""
+        return [self.total * share for share in shares if abs(share) <= FARTHEST]
 
     @property
     def _lines(self) -> tuple[Line, Line, Line]:

@@ -154,6 +154,21 @@ def test_the_reverse_direction_has_the_mirrored_set(pushed):
         assert np.allclose(found, mirrored, rtol=1e-12, atol=1e-12)
 
 
+@pytest.mark.parametrize('law', ['friction_circle', 'elastic_seat'])
+def test_the_rays_of_a_line_across_the_units_axis_are_not_ended_by_rounding(law):
+    # Along it a force neither presses the unit on its ball nor lifts it off, but for a last digit.
+    design = dataclasses.replace(HANGING, contact_law=law)
+    for degrees in range(-29, 30):
+        angle = math.radians(degrees)
+        found = tip_force_intervals(
+            *(design, 1.0, 1.2),
+            bend_angle=angle,
+            direction=(math.sin(angle + 0.5 * math.pi), math.cos(angle + 0.5 * math.pi)),
+            distance=0.0,
+        )
+        assert (found[0][0], found[-1][1]) == (-math.inf, math.inf), (degrees, found)
+
+
 def test_the_force_asked_for_adds_to_a_known_one_at_a_place_of_its_own():
     known = Load(tip_force=(0.05, 0.0), tip_distance=0.02)
     pair = {'bend_angle': 0.1, 'direction': (1.0, 0.0), 'distance': 0.02}
