@@ -75,7 +75,8 @@ class ArmTipForceWatch:
                 direction=settings.tip_direction,
                 bend_angles=measured,
                 bend_angle_stddev=stddev,
-                slipping=slipping,
+                # With angles measured, a state that has only begun to slip would agree.
+                slipping=slipping if measured else None,
                 tension_stddev=settings.tension_stddev,
                 design_covariance=settings.design_uncertainties,
                 level=settings.tip_force_level,

@@ -9,7 +9,6 @@ from ..physics import (
     Equilibrium,
     Regime,
     TipForce,
-    tip_force,
     tip_force_of_state,
 )
 from ..physics.admissible import check_bend_angle
@@ -79,20 +78,12 @@ class TipForceWatch:
             'design_covariance': settings.design_uncertainty,
             'level': settings.tip_force_level,
         }
-        slipping = '' if angle is None else self.motion(now, settings)
-        if angle is not None and slipping and abs(angle) < settings.design.max_bend_angle:
-            found = tip_force(
-                state.design,
-                state.tension_l,
-                state.tension_s,
-                load=state.load,
-                bend_angle=angle,
-                slipping=slipping,
-                **asked,
-            )
-            return Pushed(found, angle, stddev, is_measured=True)
+        slipping = None
+        if angle is not None:  # With which a state that has only begun to slip would agree.
+            is_free = abs(angle) < settings.design.max_bend_angle
+            slipping = self.motion(now, settings) if is_free else ''
         try:
-            found = tip_force_of_state(state, bend_angle=angle, **asked)
+            found = tip_force_of_state(state, bend_angle=angle, slipping=slipping, **asked)
         except BendAngleError:
             return None
         if angle is not None:

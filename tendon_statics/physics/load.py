@@ -245,12 +245,13 @@ def _numbers(name: str, values: object, parts: Sequence[str]) -> tuple[float, ..
         given = tuple(values)  # type: ignore[arg-type, var-annotated]
     except TypeError:
         given = ()
+    shown = given[0] if len(given) == len(parts) == 1 else values
     is_number = [isinstance(v, numbers.Real) and not isinstance(v, bool) for v in given]
     if len(given) != len(parts) or not all(is_number):
-        raise LoadError(f'{name} is {values!r}, but {shape} in numbers is needed')
+        raise LoadError(f'{name} is {shown!r}, but {shape} in numbers is needed')
     for value in given:
         if not abs(value) <= MAX_FORCE:
-            raise LoadError(f'{name} is {values!r}, allowed is up to {MAX_FORCE:g} either way')
+            raise LoadError(f'{name} is {shown!r}, allowed is up to {MAX_FORCE:g} either way')
     return tuple(float(value) for value in given)
 
 

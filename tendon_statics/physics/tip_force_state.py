@@ -63,6 +63,7 @@ def tip_force_of_state(
     distance: float,
     bend_angle: float | None = None,
     bend_angle_stddev: float = 0.0,
+    slipping: str | None = None,
     tension_stddev: float = 0.0,
     design_covariance: DesignUncertainty | None = None,
     level: float = 0.95,
@@ -78,6 +79,10 @@ def tip_force_of_state(
     the unit from there, so it always has zero in it; and of a slipping unit the number is zero
     by construction. Only an angle that was measured tells a force.
 
+    That it agrees tells little of a unit that has slipped by no more than the angle's noise: a
+    force that the state knows nothing of may hold the real one. So say `slipping` where the motion
+    itself was measured.
+
     Parameters
     ----------
     state : Equilibrium or FilterState
@@ -89,6 +94,9 @@ def tip_force_of_state(
         Measured θ in rad; without it that of the state.
     bend_angle_stddev : float
         Standard deviation of the measured angle in rad.
+    slipping : str, optional
+        The cable, ``s`` or ``l``, towards which the unit is known to be slipping, empty if it may
+        be at rest, whatever the state has of it; by default the state says.
 
     Raises
     ------
@@ -107,16 +115,16 @@ def tip_force_of_state(
         angle, stddev = state.bend_angle or 0.0, own_stddev
     design = state.design
     angle = check_bend_angle(design, angle)
-    slipping = ''
+    at_stop = not slipping and may_be_at_stop(design, angle, stddev + SAME_ANGLE)
     own = state.bend_angle
-    if (
-        state.regime is Regime.SLIPPING
+    if slipping is None and (
+        not at_stop
+        and state.regime is Regime.SLIPPING
         and own is not None
         and (bend_angle is None or agree(angle, stddev, own, own_stddev, level))
     ):
         margin = slip_margin(design, state.tension_l, state.tension_s, own, state.load)
         slipping = 's' if margin > 0.0 else 'l'
-    at_stop = may_be_at_stop(design, angle, stddev + SAME_ANGLE)
     return tip_force(
         *(design, state.tension_l, state.tension_s),
         bend_angle=angle,
@@ -127,7 +135,7 @@ def tip_force_of_state(
         bend_angle_stddev=stddev,
         design_covariance=design_covariance,
         level=level,
-        slipping='' if at_stop else slipping,
+        slipping=slipping or '',
         at_stop=at_stop,
     )
 

@@ -1,11 +1,20 @@
 """What pushes at the tip of an arm over time: measured angles, motion, and what is no evidence."""
 
+import dataclasses
 import math
 
 import pytest
 from designs import PRELIMINARY
 
-from tendon_statics import Arm, ArmTracker, ArmUnit, Cable, arm_tip_force
+from tendon_statics import (
+    Arm,
+    ArmTracker,
+    ArmUnit,
+    Cable,
+    Regime,
+    arm_tip_force,
+    tensions_for,
+)
 from tendon_statics.estimation.arm_estimate import ArmEstimate
 from tendon_statics.estimation.arm_settings import ArmSettings
 from tendon_statics.estimation.arm_tip_force_watch import ArmTipForceWatch
@@ -55,6 +64,22 @@ def test_while_one_joint_moves_steadily_the_force_is_a_number(speed, side):
         ARM, EVEN, bend_angles=[0.05, speed], slipping={2: side}, **ASKED
     )
     assert found.joint_intervals[1][0][0] == found.joint_intervals[1][0][1]
+
+
+def test_joints_that_do_not_move_are_at_no_limit_though_a_tracker_has_them_slipping():
+    hanging = dataclasses.replace(
+        PRELIMINARY, com_distance=-0.02, mass=0.08, contact_law='friction_circle'
+    )
+    arm = Arm([ArmUnit(hanging, 0.02)], [Cable('l', 'l', 1), Cable('s', 's', 1)])
+    settings = ArmSettings(arm, ('one',))
+    pair = tensions_for(hanging, 0.001, total_tension=9.0)
+    state = ArmTracker(arm).update(dict(zip('ls', pair, strict=True)))
+    assert state.regimes == (Regime.SLIPPING,)
+    watch = ArmTipForceWatch(1)
+    for index in range(100):
+        watch.note_angles({1: 0.0}, 0.01 * index, settings)
+    estimate = ArmEstimate(state, KnownLoad(state.load, is_assured=True), settings)
+    assert not watch.ask(estimate, settings, 1.0).found.at_limit
 
 
 def test_a_joint_that_is_not_measured_is_where_the_tracker_has_it_and_that_is_no_evidence():

@@ -6,7 +6,15 @@ import math
 import pytest
 from designs import PRELIMINARY
 
-from tendon_statics import BendAngleError, StickSlipTracker, solve, tip_force
+from tendon_statics import (
+    BendAngleError,
+    Load,
+    Regime,
+    StickSlipTracker,
+    solve,
+    tensions_for,
+    tip_force,
+)
 from tendon_statics.estimation.settings import Settings
 from tendon_statics.estimation.tip_force_watch import TipForceWatch
 
@@ -59,6 +67,27 @@ def test_motion_of_long_ago_is_forgotten():
     watch = TipForceWatch()
     moved(watch, lambda time: min(0.4 * time, 0.2))
     assert watch.motion(1.0, SETTINGS) == ''
+
+
+def test_a_unit_that_does_not_move_is_at_no_limit_though_a_tracker_has_it_slipping():
+    """A force unknown to the tracker holds it, within the noise of where that has it slip to."""
+    hanging = dataclasses.replace(
+        PRELIMINARY, com_distance=-0.02, mass=0.08, contact_law='friction_circle'
+    )
+    settings = dataclasses.replace(SETTINGS, design=hanging)
+    pair = tensions_for(hanging, 0.001, total_tension=9.0)
+    state = StickSlipTracker(hanging).update(*pair)
+    assert state.regime is Regime.SLIPPING
+    assert abs(state.bend_angle) < settings.measured_bend_angle_stddev
+    watch = TipForceWatch()
+    for index in range(100):
+        watch.note_angle(0.0, 0.01 * index, settings)
+    found = watch.ask(state, settings, 1.0).found
+    assert not found.at_limit
+    true = -0.1
+    truth = Load(tip_force=(true, 0.0), tip_distance=settings.tip_distance)
+    assert StickSlipTracker(hanging).update(*pair, truth).regime is Regime.HELD
+    assert any(low <= true <= high for low, high in found.intervals)
 
 
 def test_an_old_angle_gives_way_to_the_estimate():

@@ -187,7 +187,7 @@ def test_the_force_asked_for_adds_to_a_known_one_at_a_place_of_its_own():
         ({'direction': (1.0,)}, LoadError, r'\(x, z\)'),
         ({'direction': 1.0}, LoadError, r'\(x, z\)'),
         ({'direction': (math.nan, 1.0)}, LoadError, 'allowed'),
-        ({'distance': math.inf}, LoadError, 'distance'),
+        ({'distance': math.inf}, LoadError, 'distance is inf, allowed'),
         ({'distance': 11.0}, LoadError, '10 m'),
         ({'bend_angle': 0.6}, BendAngleError, 'allowed is'),
         ({'bend_angle': math.nan}, BendAngleError, 'allowed is'),

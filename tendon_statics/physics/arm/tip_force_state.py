@@ -15,7 +15,7 @@ from .force_doubt import ArmNoise, joint_scores
 from .joints import check_joint, check_joint_angle
 from .pushed_arm import PushedArm
 from .state import ArmState
-from .tip_force import NONE_SLIPS, ArmTipForce, arm_tip_force
+from .tip_force import ArmTipForce, arm_tip_force
 
 NONE_MEASURED: Mapping[int, float] = {}
 
@@ -33,7 +33,7 @@ def arm_tip_force_of_state(
     direction: Sequence[float],
     bend_angles: Mapping[int, float] = NONE_MEASURED,
     bend_angle_stddev: float = 0.0,
-    slipping: Mapping[int, str] = NONE_SLIPS,
+    slipping: Mapping[int, str] | None = None,
     tension_stddev: float = 0.0,
     design_covariance: DesignUncertainty | Sequence[DesignUncertainty | None] | None = None,
     level: float = 0.95,
@@ -60,9 +60,9 @@ def arm_tip_force_of_state(
         Measured θ in rad of joints, counted from 1 at the base.
     bend_angle_stddev : float
         Standard deviation of each measured angle in rad.
-    slipping : mapping of int to str
+    slipping : mapping of int to str, optional
         Joint → the cables, ``s`` or ``l``, towards which it is known to be slipping, whatever the
-        state has of it.
+        state has of it; all others may be at rest. By default the state says.
 
     Raises
     ------
@@ -80,7 +80,8 @@ def arm_tip_force_of_state(
     of_state = state.bend_angles or (0.0,) * len(arm.units)
     own_stddevs = stddevs_of_angles(state, tension_stddev)
     angles, stddevs, at_stop = [], [], []
-    slips, limits = dict(slipping), _at_limit(state, tension_stddev)
+    slips = dict(slipping or {})
+    limits = _at_limit(state, tension_stddev) if slipping is None else {}
     for index, (design, own, is_assured) in enumerate(
         zip(arm.designs, of_state, state.angles_assured, strict=True)
     ):
@@ -102,7 +103,7 @@ def arm_tip_force_of_state(
         if angle and may_be_at_stop(design, angle, stddev + SAME_ANGLE):
             at_stop.append(number)
         elif is_slipping:
-            slips.setdefault(number, limits[index])
+            slips[number] = limits[index]
     return arm_tip_force(
         *(arm, state.cable_tensions or state.tensions),
         bend_angles=angles,
