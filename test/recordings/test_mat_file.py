@@ -23,6 +23,15 @@ def test_variables_and_fields_of_structs_are_columns(tmp_path, nested):
     assert recording.time.tolist() == [0.0, 0.5]
 
 
+@pytest.mark.parametrize('nested', [False, True])
+def test_seconds_and_nanoseconds_that_stand_apart_are_added(tmp_path, nested):
+    path = tmp_path / 'run.mat'
+    stamp = {'sec': [1_700_000_000] * 2, 'nanosec': [100_000_000, 900_000_000]}
+    stamps = {'header': {'stamp': stamp}} if nested else {f'stamp_{k}': stamp[k] for k in stamp}
+    scipy_io.savemat(path, {'tension_l': [1.0, 1.0], 'tension_s': [1.5, 1.6], **stamps})
+    assert load_recording(path).time.tolist() == pytest.approx([0.1, 0.9])
+
+
 def test_a_file_of_version_7_3_is_read(tmp_path):
     h5py = pytest.importorskip('h5py')
     path = tmp_path / 'run.mat'

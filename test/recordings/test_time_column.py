@@ -428,6 +428,22 @@ def test_what_may_be_two_times_or_none_is_refused(tmp_path, texts):
         load_recording(written(tmp_path, 'Time', *texts))
 
 
+@pytest.mark.parametrize('kind', [pa.time64('ns'), pa.string()])
+@pytest.mark.parametrize('kind_of_date', [pa.date32(), pa.timestamp('ns'), pa.string()])
+def test_dates_beside_times_of_day_count_in_parquet_too(tmp_path, kind, kind_of_date):
+    days = [datetime.datetime(2026, 11, 27 + later) for later in (0, 0, 1)]
+    if kind_of_date == pa.string():
+        days = [str(day.date()) for day in days]
+    of_day = [datetime.time(10, 0, 0, 100_000 * tenth) for tenth in (0, 1, 2)]
+    if kind == pa.string():
+        of_day = [*map(str, of_day)]
+    columns = {'date': pa.array(days, kind_of_date), 'time': pa.array(of_day, kind)}
+    columns |= {'tension_l': [1.0] * 3, 'tension_s': [1.0] * 3}
+    parquet.write_table(pa.table(columns), tmp_path / 'run.parquet')
+    recording = load_recording(tmp_path / 'run.parquet')
+    assert recording.time == pytest.approx([0.0, 0.1, 86_400.2], abs=1e-9)
+
+
 @pytest.mark.parametrize('kind', [pa.time32('ms'), pa.time64('us')])
 def test_times_of_day_in_parquet_are_read(tmp_path, kind):
     of_day = [datetime.time(23, 59, 59, 900_000), None, datetime.time(0, 0)]

@@ -53,6 +53,7 @@ def load_mat(
         return len(values) == count and behaves_like_clock(values)
 
     time = columns.time
+    rest = numbers(time.nanoseconds) if time and time.nanoseconds is not None else None
     count = len(numbers(next(iter(columns.numbers.values())).place))
     others = [at for at in (() if time else columns.others) if may_be_clock(titles[at])]
     state = None
@@ -62,7 +63,7 @@ def load_mat(
         path.name,
         columns,
         {name: numbers(column.place) * column.factor for name, column in columns.numbers.items()},
-        None if time is None else times_of(time, numbers(time.place)),
+        None if time is None else times_of(time, numbers(time.place), rest),
         next((titles[at] for at in others if is_clock(at)), None),
         state,
     )

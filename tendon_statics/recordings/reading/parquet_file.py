@@ -14,7 +14,7 @@ from ..progress import Progress, unseen
 from ..session import Floats
 from .clock_like import behaves_like_clock, may_be_clock
 from .columns import find_columns
-from .moments import UNKNOWN
+from .moments import UNKNOWN, is_of_day
 from .table import Table
 from .table_options import TableOptions
 from .time_column import (
@@ -53,7 +53,7 @@ def load_parquet(
             for place in (columns.others if time is None else ())
             if may_be_clock(titles[place]) and _is_number(file.schema_arrow.field(place).type)
         ]
-        places += may_be if time is None else [at for at in time.places if at != time.date]
+        places += may_be if time is None else time.places
         if columns.state is not None:
             places.append(columns.state)
         first_row = 0
@@ -83,7 +83,7 @@ def load_parquet(
         values = table[titles[column.place]]
         if pa.types.is_dictionary(values.type):
             values = values.cast(values.type.value_type)
-        if pa.types.is_time(values.type):
+        if pa.types.is_time(values.type) and column.date is None:
             of_day = values.cast(pa.time64('ns')).cast(pa.int64()).fill_null(UNKNOWN)
             return times_of_day(column, of_day.to_numpy())
         if pa.types.is_timestamp(values.type) or pa.types.is_date(values.type):
@@ -92,8 +92,12 @@ def load_parquet(
         if pa.types.is_duration(values.type):
             spans = values.cast(pa.duration('ns'), safe=False).cast(pa.int64()).cast(pa.float64())
             return times_of(column._replace(unit='ns'), spans.to_numpy())
+        if pa.types.is_time(values.type):
+            values = values.cast(pa.time64('us'), safe=False).cast(pa.string())
         if pa.types.is_string(values.type) or pa.types.is_large_string(values.type):
-            return times_of_moments(column, [value or '' for value in values.to_pylist()])
+            texts = [value or '' for value in values.to_pylist()]
+            dates = texts if column.date is None else table[titles[column.date]].to_pylist()
+            return times_of_moments(column, [*map(_on_its_day, texts, dates)])
         rest = None if column.nanoseconds is None else numbers(column.nanoseconds)
         return times_of(column, numbers(column.place), rest)
 
@@ -114,6 +118,15 @@ def load_parquet(
         next(clocks(), None),
         state,
         damage=damage,
+    )
+
+
+def _on_its_day(text: str, date: object) -> str:
+    """Put the date that stands beside a time of day before it."""
+    return (
+        f'{str(date).partition(" 00:00")[0]} {text}'
+        if date is not None and is_of_day(text)
+        else text
     )
 
 

@@ -116,8 +116,8 @@ def _titles(
     # What is wrong with the tensions that were found, rather than that there are none; else what
     # there is by the separator that makes most titles.
     of_found = [failure for failure in failures if 'no column' not in str(failure[1])]
-    _, error = max(of_found or failures, key=lambda failure: failure[0])
-    raise (None if of_found else _elsewhere(rows, skipped, separators, options)) or error
+    _, worst = max(of_found or failures, key=lambda failure: failure[0])
+    raise (None if of_found else _elsewhere(rows, skipped, separators, options)) or worst
 
 
 def _elsewhere(
