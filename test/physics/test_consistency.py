@@ -151,6 +151,15 @@ def test_a_camera_that_misses_the_peaks_of_the_drive_raises_no_alarm():
     assert least_consistency(drawn, angles=angles) < ALARM
 
 
+@pytest.mark.parametrize('unit', ['backbone, friction circle', 'backbone, elastic seat'])
+def test_a_camera_too_slow_to_see_a_slide_end_raises_no_alarm(unit):
+    """Five of its readings span the end of the slide; their mean is no place of rest."""
+    drawn = strokes(unit, 16.0, 6, 'cycles', noise=0.005)
+    angles = measured(drawn)
+    angles[np.arange(len(angles)) % 20 != 0] = math.nan
+    assert least_consistency(drawn, angles=angles, slips=99) > 1e-4
+
+
 @pytest.mark.parametrize('cables', ['slack', 'lost'])
 def test_what_moves_a_unit_unseen_raises_no_alarm(cables):
     """While a cable is slack, or no tensions come, a hand may have moved it."""

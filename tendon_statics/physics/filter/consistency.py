@@ -174,6 +174,9 @@ class Consistency:
     def _judge_motion(self) -> None:
         """Find out whether the unit has moved, as the newest two groups both say."""
         group, newest = self._groups[-2], self._groups[-1]
+        if not self._rest and not group.is_steady:
+            self._wait_for_rest()  # It moved within the group, whose mean is no place of rest.
+            return
         rest = Group.of([one for part in self._rest or [group] for one in part.readings])
         changes = [
             (one.mean - rest.mean) / math.hypot(one.error, rest.error) for one in (group, newest)
@@ -189,8 +192,11 @@ class Consistency:
             self._slips.append(self._slipping(rest, side))
             self._slide = self._slips[-1].slide
         self._last_motion = time
-        # What comes next is a rest again, until it is found that the unit slides on.
-        samples = self._samples[-1]
+        self._wait_for_rest()
+
+    def _wait_for_rest(self) -> None:
+        """Take it that a rest begins with the newest group, unless the unit slides on."""
+        newest, samples = self._groups[-1], self._samples[-1]
         self._groups.clear()
         self._samples.clear()
         self._groups.append(newest)
