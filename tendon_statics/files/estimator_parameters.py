@@ -7,6 +7,8 @@ reference shows it, and what is not in it is named as unknown.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import Any
 
 from ..estimation.methods import METHODS
 from ..estimation.settings import Settings
@@ -50,6 +52,7 @@ from .parameter_kinds import (
     NumberParameter,
     Parameter,
     TextParameter,
+    number_of_text,
 )
 
 ESTIMATIONS = tuple(METHODS)
@@ -173,6 +176,15 @@ def design_table(default: JointDesign) -> tuple[Parameter, ...]:
         )
         for field in design_fields()
     )
+
+
+def with_numbers(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return values by name as the node takes them: also the text of a number for the number."""
+    numbers = {of.name for of in ESTIMATOR_PARAMETERS if isinstance(of, NumberParameter)}
+    numbers |= {DESIGN + of.name for of in design_fields() if isinstance(of, DesignParameter)}
+    return {
+        name: number_of_text(value) if name in numbers else value for name, value in values.items()
+    }
 
 
 def known_names() -> set[str]:

@@ -130,8 +130,7 @@ class NumberParameter(Parameter):
 
         ``ros2 param set`` makes an integer of ``1`` and a text of ``1e-2``.
         """
-        if isinstance(value, str) and _NUMBER.fullmatch(value):
-            value = int(value) if value.lstrip('+-').isdecimal() else float(value)
+        value = number_of_text(value)
         return value if self.is_integer else _as_float(value)
 
     def fixed(self) -> NumberParameter:
@@ -206,6 +205,13 @@ class ListParameter(Parameter):
 
 
 _NUMBER = re.compile(r'[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?')
+
+
+def number_of_text(value: Any) -> Any:
+    """Return the number that a text is, and anything else as it is."""
+    if isinstance(value, str) and _NUMBER.fullmatch(value):
+        return int(value) if value.lstrip('+-').isdecimal() else float(value)
+    return value
 
 
 def _as_float(value: Any) -> Any:

@@ -13,6 +13,7 @@ from ..physics.design_uncertainty import DesignUncertainty
 from ..physics.errors import DesignError
 from ..tensions.cable_scale import CableScale
 from .design_file import design_values
+from .estimator_parameters import with_numbers
 from .known_parameters import check_parameters_of_ros, said_of_unknown
 from .parameter_file import node_parameters, only_for, read_parameters
 from .parameter_form import ParameterFileError
@@ -82,7 +83,7 @@ def load_unit(path: str | Path, node: str = '') -> Unit:
     path = Path(path)
     try:
         content = read_parameters(path)
-        parameters = node_parameters(content, node)
+        parameters = with_numbers(node_parameters(content, node))
         design = design_values(parameters)
         if not design:
             raise DesignError(

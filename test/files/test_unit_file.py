@@ -1,12 +1,14 @@
 """A unit's parameter file: one reading of it by `tendon-statics` and by the node."""
 
 import math
+import re
 
 import bags
 import pytest
 from bags import write_bag
 from forked_programs import ForkedProgram
 from programs import assert_refused, run
+from ros_programs import wait_for
 
 from tendon_statics import default_design_path
 from tendon_statics.files.design_file import save_design
@@ -289,3 +291,15 @@ def test_a_fitted_file_keeps_what_the_start_says_of_the_cables(unit, tmp_path):
     assert (fitted.cable_l, fitted.cable_s) == (before.cable_l, before.cable_s)
     assert fitted.get('cable_names') == ['winch_l', 'winch_s']
     assert fitted.design.mass == pytest.approx(TRUTH.mass, rel=1e-3)
+
+
+def test_the_text_of_a_number_is_taken_for_it_as_by_the_node(unit):
+    """Which `ros2 param set` sends, and which a file may have in quotes."""
+    path = unit('tension_stddev: "2e-2"', 'cable_l.gain: "1e-3"', 'joint_name: "7"')
+    path.write_text(re.sub('mass: .*', 'mass: "0.0196"', path.read_text()))
+    taken = load_unit(path)
+    assert (taken.design.mass, taken.cable_l.gain) == (0.0196, 0.001)
+    assert taken.settings.tension_stddev == 0.02
+    assert taken.parameters['joint_name'] == '7'
+    with ForkedProgram.running('estimator', '--ros-args', '--params-file', str(path)) as program:
+        wait_for('it to be ready', lambda: 'Ready: ' in program.output())
