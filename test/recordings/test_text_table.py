@@ -416,3 +416,13 @@ def test_what_has_no_titles_as_ros2_topic_echo_writes_it_is_said(file):
     )
     with pytest.raises(RecordingError, match='first line has numbers in place of titles'):
         load_recording(path)
+
+
+def test_a_row_of_units_of_which_one_is_not_known_asks_for_that(tmp_path):
+    """It is no damage, after which volts would be read as newtons."""
+    data = tmp_path / 'run.csv'
+    data.write_text('time,tension_l,tension_s\ns,V,V\n0,1,1.5\n1,1,1.6\n')
+    assert_refused(run('replay', data), "the unit of tension_l is 'V', which is not known")
+    done = run('replay', data, '--units', 'tension=mN')
+    assert done.returncode == 0, done.stderr
+    assert 'units: those of line 2' in done.stdout

@@ -192,7 +192,7 @@ def _header(number: int, line: bytes, separator: str, *, as_comment: bool) -> li
 def _with_units_row(
     titles: list[str], rows: list[Line], separator: str, quantities: Quantities
 ) -> tuple[list[str], list[Line], list[str]]:
-    """Take a row of units below the titles into these."""
+    """Take a row of units below the titles into these; one that is known makes it one."""
     try:
         units = [field.strip('[]()') for field in split(rows[0][1], separator)] if rows else []
     except (ValueError, csv.Error):
@@ -204,7 +204,7 @@ def _with_units_row(
         if quantities.has_units(name)
     ]
     numbers = any(field.replace('.', '').replace(',', '').strip('-+').isdigit() for field in units)
-    if len(units) != len(titles) or numbers or not all(known) or not any(units):
+    if len(units) != len(titles) or numbers or not any(known):
         return titles, rows, []
     with_units = [
         f'{name} [{unit}]' if quantities.has_units(name) and given is None else title
