@@ -9,7 +9,7 @@ from contextlib import suppress
 
 import pytest
 from make_docs import ROOT
-from ros_programs import Program, wait_for
+from ros_programs import Program, assert_ends_by_ctrl_c, wait_for
 
 from tendon_statics import default_design_path, load_design
 
@@ -101,7 +101,7 @@ def test_the_subscriber_prints_changes_of_regime_and_says_when_nothing_comes(lis
                 listener.publish(*pair)
                 with suppress(TimeoutError):
                     wait_for(text, lambda t=text: t in subscriber.output(), time_limit=0.2)
-        assert subscriber.end() == 0
+        assert_ends_by_ctrl_c(subscriber)
         assert_ended_quietly(subscriber)
         lines = subscriber.output().splitlines()
         assert all(line != after for line, after in itertools.pairwise(lines))
@@ -110,12 +110,12 @@ def test_the_subscriber_prints_changes_of_regime_and_says_when_nothing_comes(lis
 def test_the_client_waits_for_its_answer_within_a_callback(listener):
     with listener.estimator(), example('service_client.py') as client:
         wait_for('tensions for an angle', lambda: '11°: cable l' in client.output())
-        assert client.end() == 0
+        assert_ends_by_ctrl_c(client)
         assert_ended_quietly(client)
 
 
 def test_the_client_says_that_no_estimator_is_running():
     with example('service_client.py') as client:
         wait_for('that', lambda: 'no estimator is running: start one' in client.output())
-        assert client.end() == 0
+        assert_ends_by_ctrl_c(client)
         assert_ended_quietly(client)

@@ -4,7 +4,7 @@ import re
 
 import pytest
 from make_docs import ROOT, TUTORIALS
-from ros_programs import Program, wait_for
+from ros_programs import Program, assert_ends_by_ctrl_c, wait_for
 from run_page import run_page
 
 PYTHON = re.compile(r'^```python\n(.*?)^```$', re.MULTILINE | re.DOTALL)
@@ -36,16 +36,29 @@ def test_the_node_of_the_readme_asks_and_listens(listener, tmp_path):
     with_ros, _ = PYTHON.findall((ROOT / 'README.md').read_text(encoding='utf-8'))
     script = tmp_path / 'reader.py'
     script.write_text(with_ros, encoding='utf-8')
-    with listener.estimator(), Program.running_command(['python', '-u', script]) as reader:
-        wait_for('the answer', lambda: 'equilibrium 0.299' in reader.output())
+    # On a machine so busy that no answer comes within its 5 s it says so, and is begun anew.
+    with listener.estimator():
+        assert any(asks_and_listens(listener, script) for _ in range(10))
+
+
+def asks_and_listens(listener, script):
+    """Run the reader; return whether an answer came, and then hold it to all else."""
+    with Program.running_command(['python', '-u', script]) as reader:
+        wait_for(
+            'an answer, or none',
+            lambda: 'equilibrium 0.299' in reader.output() or reader.process.poll() is not None,
+        )
+        if reader.process.poll() is not None:
+            assert reader.output().endswith('no answer within 5 s\n'), reader.output()
+            return False
 
         def hears():
             listener.publish(1.0, 3.0)
             return 'driven_to_stop 0.5235' in reader.output()
 
         wait_for('an estimate', hears)
-        assert reader.end() == 0
-        assert 'Traceback' not in reader.output()
+        assert_ends_by_ctrl_c(reader)
+        return True
 
 
 def test_the_node_of_the_readme_says_that_an_estimator_is_needed(tmp_path):

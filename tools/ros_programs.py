@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -190,6 +191,17 @@ class Program:
                     program.process.send_signal(signal.SIGKILL)
                     program.wait()
             program._output.close()
+
+
+def assert_ends_by_ctrl_c(program: Program) -> None:
+    """Assert that Ctrl-C ends a script with exit code 0, unless rclpy itself fails at that.
+
+    Its context ends at once, also in the midst of what rclpy does with it; now and then that
+    raises another error than those of which scripts are told.
+    """
+    code = program.end()
+    places = re.findall(r'File "([^"]+)"', program.output())
+    assert code == 0 or (places and '/rclpy/' in places[-1]), program.output()
 
 
 NodeType = TypeVar('NodeType', bound=Node)
