@@ -117,6 +117,8 @@ $(made).venv/.site: tools/requirements-site.txt $(made).venv/.complete
 
 $(made)install/.complete: $(made).venv/.complete $(sources)
 	@echo "== building tendon_statics_interfaces and tendon_statics into $(@D)/ (half a minute)"
+	@# Modules that are gone would stay there, and be imported.
+	@rm -rf $(@D)/tendon_statics $(made)build/tendon_statics
 	@$(run) python -m colcon --log-base $(made)log build --build-base $(made)build \
 	    --install-base $(made)install --event-handlers console_cohesion- console_stderr- \
 	    desktop_notification- summary- \
