@@ -4,16 +4,17 @@ import dataclasses
 
 import numpy as np
 import pytest
+from arms import arm_of
 from make_docs import ROOT
 
 from tendon_statics import ArmFilter, ArmTracker, Regime, arm_margins, load_arm
 from tendon_statics.estimation.arm_follower import ArmFollower
 from tendon_statics.estimation.arm_settings import ArmSettings
 from tendon_statics.estimation.estimate import KnownLoad, Remark
-from tendon_statics.physics import UPRIGHT, Arm, Cable
+from tendon_statics.physics import UPRIGHT
 
 FIVE = load_arm(ROOT / 'config/arm.yaml')
-ARM = Arm(FIVE.units[3:], [Cable('l', 'l', 2), Cable('s', 's', 2)], 0.05)
+ARM = arm_of(FIVE.units[3:], cable_friction_coefficient=0.05)
 SETTINGS = ArmSettings(ARM, ('first', 'second'), tension_stddev=0.02)
 KNOWN = KnownLoad(UPRIGHT)
 

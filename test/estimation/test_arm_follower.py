@@ -5,6 +5,7 @@ import math
 import random
 
 import pytest
+from arms import arm_of
 from designs import PRELIMINARY
 
 from tendon_statics import Arm, ArmTracker, ArmUnit, Cable, Load, Regime
@@ -108,7 +109,7 @@ def test_the_worst_joint_is_named_with_its_regime_and_margin():
 
 
 def test_noise_that_can_slip_a_joint_is_remarked_and_the_joint_is_named():
-    weak = Arm([ArmUnit(PRELIMINARY, 0.03)] * 2, [Cable('l', 'l', 2), Cable('s', 's', 2)])
+    weak = arm_of([ArmUnit(PRELIMINARY, 0.03)] * 2)
     arm = ArmFollower(ArmSettings(weak, ('a', 'b'), tension_stddev=0.1))
     (found,) = taken(arm, (1.0, 1.8))
     assert Remark.NOISE in found.slow_remarks
@@ -128,7 +129,7 @@ def test_what_would_be_is_asked_without_moving_the_arm():
 
 
 def test_an_arm_of_one_unit_says_what_the_unit_says_while_tracking():
-    one = Arm([ArmUnit(PRELIMINARY, 0.03)], [Cable('l', 'l', 1), Cable('s', 's', 1)])
+    one = arm_of([ArmUnit(PRELIMINARY, 0.03)])
     arm = ArmFollower(ArmSettings(one, ('joint',)))
     unit = UnitEstimator(Settings(PRELIMINARY), 'tracking')
     generator = random.Random(4)

@@ -1,16 +1,14 @@
 """What pushes at the tip of an arm over time: measured angles, motion, and what is no evidence."""
 
-import dataclasses
 import math
 
 import pytest
-from designs import PRELIMINARY
+from arms import arm_of, pull
+from designs import HANGING, PRELIMINARY
 
 from tendon_statics import (
-    Arm,
     ArmTracker,
     ArmUnit,
-    Cable,
     Regime,
     arm_tip_force,
     tensions_for,
@@ -20,9 +18,9 @@ from tendon_statics.estimation.arm_settings import ArmSettings
 from tendon_statics.estimation.arm_tip_force_watch import ArmTipForceWatch
 from tendon_statics.estimation.estimate import KnownLoad
 
-ARM = Arm([ArmUnit(PRELIMINARY, 0.02)] * 2, [Cable('l', 'l', 2), Cable('s', 's', 2)])
+ARM = arm_of([ArmUnit(PRELIMINARY, 0.02)] * 2)
 SETTINGS = ArmSettings(ARM, ('one', 'two'))
-EVEN = {'l': 1.0, 's': 1.1}
+EVEN = pull(1.0, 1.1)
 ASKED = {
     'direction': (1.0, 0.0),
     'tension_stddev': SETTINGS.tension_stddev,
@@ -67,13 +65,9 @@ def test_while_one_joint_moves_steadily_the_force_is_a_number(speed, side):
 
 
 def test_joints_that_do_not_move_are_at_no_limit_though_a_tracker_has_them_slipping():
-    hanging = dataclasses.replace(
-        PRELIMINARY, com_distance=-0.02, mass=0.08, contact_law='friction_circle'
-    )
-    arm = Arm([ArmUnit(hanging, 0.02)], [Cable('l', 'l', 1), Cable('s', 's', 1)])
+    arm = arm_of([ArmUnit(HANGING, 0.02)])
     settings = ArmSettings(arm, ('one',))
-    pair = tensions_for(hanging, 0.001, total_tension=9.0)
-    state = ArmTracker(arm).update(dict(zip('ls', pair, strict=True)))
+    state = ArmTracker(arm).update(pull(*tensions_for(HANGING, 0.001, total_tension=9.0)))
     assert state.regimes == (Regime.SLIPPING,)
     watch = ArmTipForceWatch(1)
     for index in range(100):
@@ -101,7 +95,7 @@ def test_nothing_is_said_while_a_cable_is_slack_or_an_angle_is_not_known():
     watch = ArmTipForceWatch(2)
     measured(watch, {1: lambda _: 0.0})
     tracker = ArmTracker(ARM)
-    slack = estimated(tracker.update({'l': 1.0, 's': 0.0}))
+    slack = estimated(tracker.update(pull(1.0, 0.0)))
     assert watch.ask(slack, SETTINGS, 1.0) is None
     doubted = estimated(tracker.update(EVEN))  # joint 2 may have moved
     assert watch.ask(doubted, SETTINGS, 1.0) is None

@@ -4,7 +4,7 @@ import dataclasses
 import math
 
 import pytest
-from designs import PRELIMINARY
+from designs import HANGING, PRELIMINARY
 
 from tendon_statics import (
     BendAngleError,
@@ -71,12 +71,9 @@ def test_motion_of_long_ago_is_forgotten():
 
 def test_a_unit_that_does_not_move_is_at_no_limit_though_a_tracker_has_it_slipping():
     """A force unknown to the tracker holds it, within the noise of where that has it slip to."""
-    hanging = dataclasses.replace(
-        PRELIMINARY, com_distance=-0.02, mass=0.08, contact_law='friction_circle'
-    )
-    settings = dataclasses.replace(SETTINGS, design=hanging)
-    pair = tensions_for(hanging, 0.001, total_tension=9.0)
-    state = StickSlipTracker(hanging).update(*pair)
+    settings = dataclasses.replace(SETTINGS, design=HANGING)
+    pair = tensions_for(HANGING, 0.001, total_tension=9.0)
+    state = StickSlipTracker(HANGING).update(*pair)
     assert state.regime is Regime.SLIPPING
     assert abs(state.bend_angle) < settings.measured_bend_angle_stddev
     watch = TipForceWatch()
@@ -86,7 +83,7 @@ def test_a_unit_that_does_not_move_is_at_no_limit_though_a_tracker_has_it_slippi
     assert not found.at_limit
     true = -0.1
     truth = Load(tip_force=(true, 0.0), tip_distance=settings.tip_distance)
-    assert StickSlipTracker(hanging).update(*pair, truth).regime is Regime.HELD
+    assert StickSlipTracker(HANGING).update(*pair, truth).regime is Regime.HELD
     assert any(low <= true <= high for low, high in found.intervals)
 
 

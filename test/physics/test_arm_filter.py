@@ -1,12 +1,12 @@
 """`ArmFilter`: where an arm is under noise; an arm of one is the single filter."""
 
-import dataclasses
 import math
 import random
 
 import arm_brute
 import numpy as np
 import pytest
+from arms import SHEATHED, arm_of, pull
 from designs import PRELIMINARY
 from measure_filter.sessions import UNITS
 from thoroughness import few_of
@@ -28,23 +28,9 @@ from tendon_statics import (
 
 HANGING, _ = UNITS['hanging']
 NOISE = 0.01
-SHEATHED = ArmUnit(
-    dataclasses.replace(PRELIMINARY, friction_coefficient=0.3, stiffness=0.04), 0.02
-)
-"""Comes to rest between the stops"""
-
-
-def arm_of(units, **more):
-    count = len(units)
-    return Arm(units, [Cable('l', 'l', count), Cable('s', 's', count)], **more)
-
 
 THREE = arm_of([SHEATHED] * 3)
 BIASED = {'tension_stddev': NOISE, 'tension_bias_stddev': 0.01}
-
-
-def pull(tension_l, tension_s):
-    return {'l': tension_l, 's': tension_s}
 
 
 def fed(found, pairs, *, noise=NOISE, rate=200.0, start=0.0, seed=1, load=None):

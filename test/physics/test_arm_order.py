@@ -5,6 +5,7 @@ import random
 
 import arm_brute
 import pytest
+from arms import arm_of
 from designs import PRELIMINARY
 from make_docs import ROOT
 
@@ -24,7 +25,7 @@ from tendon_statics import (
 ARM = load_arm(ROOT / 'config/arm.yaml')
 EVEN = dict.fromkeys(ARM.cable_names, 1.0)
 UNIT = ArmUnit(PRELIMINARY, 0.02)
-ONE_PAIR = Arm([UNIT] * 4, [Cable('l', 'l', 4), Cable('s', 's', 4)])
+ONE_PAIR = arm_of([UNIT] * 4)
 TWO_PAIRS = Arm([UNIT] * 4, [*ONE_PAIR.cables, Cable('l2', 'l', 2), Cable('s2', 's', 2)])
 
 
@@ -155,7 +156,7 @@ def test_a_lone_unit_is_brought_to_its_limit_as_the_single_inverse_does():
     design = dataclasses.replace(
         PRELIMINARY, contact_law='friction_circle', friction_coefficient=0.3
     )
-    arm = Arm([ArmUnit(design, 0.02)], [Cable('l', 'l', 1), Cable('s', 's', 1)])
+    arm = arm_of([ArmUnit(design, 0.02)])
     found = arm_tensions_for(arm, 1, 's', tension_range=(1.0, 5.0), bend_angles=[0.2])
     single = tensions_for(design, 0.2, total_tension=sum(found.values()))
     assert tuple(found.values()) == pytest.approx(tuple(single), rel=1e-9)

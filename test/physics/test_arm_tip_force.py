@@ -13,6 +13,7 @@ import brute
 import numpy as np
 import pytest
 from arm_pushed import joints_held, random_pushed
+from arms import arm_of
 from designs import PRELIMINARY
 from thoroughness import some_of
 
@@ -148,7 +149,7 @@ def test_an_arm_of_one_unit_is_the_single_unit_to_the_last_bit(at_stop):
         of, length = draw.uniform(-math.pi, math.pi), draw.uniform(0.0, 0.06)
         load = dataclasses.replace(case.load, tip_distance=length)
         line = {'direction': (math.sin(of), math.cos(of)), 'load': load}
-        arm = Arm([ArmUnit(case.design, length)], [Cable('l', 'l', 1), Cable('s', 's', 1)])
+        arm = arm_of([ArmUnit(case.design, length)])
         tensions = {'l': case.tension_l, 's': case.tension_s}
         found = arm_tip_force(arm, tensions, bend_angles=[angle], at_stop=at_stop, **line)
         single = tip_force(
@@ -297,7 +298,7 @@ def test_tensions_at_the_joints_are_those_at_the_base_where_cables_have_no_frict
 
 def test_a_joint_at_its_stop_narrows_the_set_on_one_side_only():
     unit = ArmUnit(PRELIMINARY, 0.02)
-    arm = Arm([unit, unit], [Cable('l', 'l', 2), Cable('s', 's', 2)])
+    arm = arm_of([unit, unit])
     asked = {
         'bend_angles': [PRELIMINARY.max_bend_angle, 0.0],
         'direction': (1.0, 0.0),
@@ -313,7 +314,7 @@ def test_a_joint_at_its_stop_narrows_the_set_on_one_side_only():
 
 
 UNIT = ArmUnit(PRELIMINARY, 0.02)
-ARM = Arm([UNIT, UNIT], [Cable('l', 'l', 2), Cable('s', 's', 2)])
+ARM = arm_of([UNIT, UNIT])
 EVEN = {'l': 1.0, 's': 1.0}
 
 
@@ -420,7 +421,7 @@ def test_hardly_any_noise_is_none():
 
 def test_with_noise_an_arm_of_one_is_the_single_unit():
     for force in (0.0, 0.05):
-        arm = Arm([ArmUnit(PRELIMINARY, 0.03)], [Cable('l', 'l', 1), Cable('s', 's', 1)])
+        arm = arm_of([ArmUnit(PRELIMINARY, 0.03)])
         known = Load(tip_force=(force, 0.0))
         found = arm_tip_force(
             *(arm, {'l': 1.0, 's': 1.3}),

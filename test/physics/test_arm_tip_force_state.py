@@ -8,18 +8,15 @@ from collections import Counter
 import arm_brute
 import numpy as np
 import pytest
-from designs import PRELIMINARY
+from arms import SHEATHED, arm_of, pull
 from thoroughness import some_of
 
 from tendon_statics import (
     UPRIGHT,
-    Arm,
     ArmError,
     ArmFilter,
     ArmTracker,
-    ArmUnit,
     BendAngleError,
-    Cable,
     Load,
     LoadError,
     Regime,
@@ -28,17 +25,16 @@ from tendon_statics import (
     arm_tip_force_of_state,
 )
 
-SHEATHED = dataclasses.replace(PRELIMINARY, friction_coefficient=0.3, stiffness=0.04)
-ARM = Arm([ArmUnit(SHEATHED, 0.02)] * 3, [Cable('l', 'l', 3), Cable('s', 's', 3)])
+ARM = arm_of([SHEATHED] * 3)
 ACROSS = (1.0, 0.0)
 NOISE = {'tension_stddev': 0.01, 'bend_angle_stddev': 0.005}
 
 
-def pushed(force, *pulls, arm=ARM):
+def pushed(force, *tensions, arm=ARM):
     """The state of an arm after pulls on cable s, while a force pushes across."""
     tracker = ArmTracker(arm)
-    for pull in pulls:
-        state = tracker.update({'l': 1.0, 's': pull}, Load(tip_force=(force, 0.0)))
+    for tension in tensions:
+        state = tracker.update(pull(1.0, tension), Load(tip_force=(force, 0.0)))
     return state
 
 
@@ -56,13 +52,14 @@ def test_joints_that_slip_tell_the_force_that_pushes_as_a_number():
     slipped = set()
     for _ in range(some_of(60)):
         force = draw.uniform(-0.03, 0.03)
-        units = [
-            ArmUnit(
-                dataclasses.replace(SHEATHED, friction_coefficient=draw.uniform(0.2, 0.8)), 0.02
-            )
+        designs = [
+            dataclasses.replace(SHEATHED.design, friction_coefficient=draw.uniform(0.2, 0.8))
             for _ in range(3)
         ]
-        arm = Arm(units, ARM.cables, draw.choice((0.0, 0.1)))
+        arm = arm_of(
+            [dataclasses.replace(SHEATHED, design=design) for design in designs],
+            cable_friction_coefficient=draw.choice((0.0, 0.1)),
+        )
         state = pushed(force, draw.uniform(1.1, 1.5), draw.uniform(1.3, 2.4), arm=arm)
         count = state.regimes.count(Regime.SLIPPING)
         if not count or Regime.DRIVEN_TO_STOP in state.regimes:
@@ -151,7 +148,7 @@ def test_an_arm_at_rest_tells_the_set_of_its_tensions_and_angles():
     assert set(state.regimes) == {Regime.HELD}
     found = arm_tip_force_of_state(unaware(state), direction=ACROSS, bend_angles=all_angles(state))
     assert found == arm_tip_force(
-        ARM, {'l': 1.0, 's': 1.85}, bend_angles=state.bend_angles, direction=ACROSS
+        ARM, pull(1.0, 1.85), bend_angles=state.bend_angles, direction=ACROSS
     )
     assert not found.at_limit
     assert found.force is None
@@ -173,7 +170,7 @@ def test_joints_that_are_not_measured_have_the_deviation_of_the_state_and_no_lim
     own = state.bend_angle_stddevs(0.01)
     slips = {1: 's'} if state.regimes[0] is Regime.SLIPPING else {}
     assert found == arm_tip_force(
-        *(ARM, {'l': 1.0, 's': 2.1}),
+        *(ARM, pull(1.0, 2.1)),
         bend_angles=angles,
         direction=ACROSS,
         slipping=slips,
@@ -201,7 +198,7 @@ def test_a_joint_next_to_its_stop_may_lean_on_it():
         for joint, regime in enumerate(state.regimes, start=1)
         if regime is Regime.DRIVEN_TO_STOP
     ]
-    tensions = {'l': 1.0, 's': 9.0}
+    tensions = pull(1.0, 9.0)
     for short, noise in ((0.0, {}), (0.01, NOISE)):
         angles = {j: a - short * (j in leaning) for j, a in all_angles(state).items()}
         found = arm_tip_force_of_state(state, direction=ACROSS, bend_angles=angles, **noise)
@@ -218,8 +215,8 @@ def test_a_filter_says_of_a_joint_that_it_slips_and_the_true_force_is_inside():
     found = ArmFilter(ARM, tension_stddev=0.01)
     draw = random.Random(3)
     for index in range(120):
-        pull = 1.0 + 1.1 * index / 120
-        tensions = {'l': 1.0 + draw.gauss(0.0, 0.01), 's': pull + draw.gauss(0.0, 0.01)}
+        tension_s = 1.0 + 1.1 * index / 120
+        tensions = pull(1.0 + draw.gauss(0.0, 0.01), tension_s + draw.gauss(0.0, 0.01))
         state = found.update(tensions, index / 200.0)
     assert Regime.SLIPPING in state.regimes
     told = arm_tip_force_of_state(state, direction=ACROSS, bend_angles=all_angles(state), **NOISE)
@@ -232,7 +229,7 @@ def test_a_filter_says_of_a_joint_that_it_slips_and_the_true_force_is_inside():
 def test_an_angle_that_nobody_vouches_for_is_refused_unless_it_was_measured():
     tracker = ArmTracker(ARM)
     tracker.doubt()
-    state = tracker.update({'l': 1.0, 's': 1.05})
+    state = tracker.update(pull(1.0, 1.05))
     with pytest.raises(BendAngleError, match='joint 1 is not assured'):
         arm_tip_force_of_state(state, direction=ACROSS)
     angles = dict.fromkeys((1, 2, 3), 0.0)
@@ -251,11 +248,11 @@ def test_an_angle_that_nobody_vouches_for_is_refused_unless_it_was_measured():
         ({'slipping': {1: 'both'}}, ValueError, "slipping of joint 1 is 'both'"),
         ({'design_covariance': [None]}, ArmError, 'has 1 values, but the arm has 3 units'),
         ({'level': 0.2}, ValueError, 'level is 0.2'),
-        ({'tensions': {'l': 1.0, 's': 0.0}}, TensionError, 'joint 1 is slack'),
+        ({'tensions': pull(1.0, 0.0)}, TensionError, 'joint 1 is slack'),
     ],
 )
 def test_bad_input_is_refused_with_the_reason_in_one_line(changed, error, reason):
-    tensions = changed.get('tensions', {'l': 1.0, 's': 1.1})
+    tensions = changed.get('tensions', pull(1.0, 1.1))
     state = ArmTracker(ARM).update(tensions)
     asked = {'direction': ACROSS, **changed}
     asked.pop('tensions', None)

@@ -7,6 +7,7 @@ import random
 import arm_brute
 import brute
 import pytest
+from arms import SHEATHED, arm_of, pull
 from designs import PRELIMINARY
 
 from tendon_statics import (
@@ -24,19 +25,6 @@ from tendon_statics import (
 
 UNIT = ArmUnit(PRELIMINARY, 0.02)
 WEIGHTLESS = ArmUnit(dataclasses.replace(PRELIMINARY, mass=0.0), 0.02)
-SHEATHED = ArmUnit(
-    dataclasses.replace(PRELIMINARY, friction_coefficient=0.3, stiffness=0.04), 0.02
-)
-"""Comes to rest between the stops"""
-
-
-def arm_of(units, **more):
-    count = len(units)
-    return Arm(units, [Cable('l', 'l', count), Cable('s', 's', count)], **more)
-
-
-def pull(tension_l, tension_s):
-    return {'l': tension_l, 's': tension_s}
 
 
 @pytest.mark.parametrize('number', range(40))
@@ -279,6 +267,33 @@ def test_deviations_are_those_of_many_noisy_pulls(friction):
         found = math.sqrt(sum((tip[index] - mean) ** 2 for tip in tips) / len(tips))
         assert claimed == pytest.approx(found, rel=0.3)
         assert claimed > 0.0
+
+
+@pytest.mark.parametrize('number', [134, 236, 463, 1017, 1974, 2688, 2916, 3294])
+def test_a_joint_that_another_took_barely_from_its_limit_has_the_deviation_of_one_at_it(number):
+    """Beside differences by each tension; arms that do it are one in 400."""
+    draw = random.Random(number)
+    arm = arm_brute.random_arm(draw, 2)
+    load = arm_brute.random_load(draw)
+    tensions = arm_brute.random_pull(draw, arm, load)
+
+    def state_at(**changed):
+        return ArmTracker(arm).update({**tensions, **changed}, load)
+
+    state, step = state_at(), 1e-5
+    within = [
+        1.0 - abs(margin)
+        for regime, margin in zip(state.regimes, state.slip_margins, strict=True)
+        if regime is Regime.SLIPPING
+    ]
+    assert any(1e-6 < one < 1e-3 for one in within)
+    variances = [0.0, 0.0]
+    for name, tension in tensions.items():
+        ends = [state_at(**{name: tension + by}).bend_angles for by in (-step, step)]
+        for joint, (before, after) in enumerate(zip(*ends, strict=True)):
+            variances[joint] += ((after - before) / (2.0 * step)) ** 2
+    found = [math.sqrt(variance) for variance in variances]
+    assert state.bend_angle_stddevs(1.0) == pytest.approx(found, rel=0.01)
 
 
 def test_a_copy_goes_on_alone():

@@ -1,7 +1,8 @@
-"""Random joint designs and tensions, and the preliminary design."""
+"""Random joint designs and tensions, and two designs."""
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import random
 from collections.abc import Iterator
@@ -11,6 +12,11 @@ from hypothesis import strategies as st
 from tendon_statics import JointDesign, default_design_path, load_design
 
 PRELIMINARY = load_design(default_design_path())
+
+HANGING = dataclasses.replace(
+    PRELIMINARY, com_distance=-0.02, mass=0.08, contact_law='friction_circle'
+)
+"""Comes to rest between the stops"""
 
 
 def random_design(draw: random.Random) -> JointDesign:
