@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..physics import (
     BendAngleError,
@@ -12,10 +12,12 @@ from ..physics import (
     tip_force_of_state,
 )
 from ..physics.admissible import check_bend_angle
-from ..physics.arm import ArmTipForce
 from ..physics.tip_force_state import StateUnderNoise, stddev_of_angle
 from .measured_angle import MeasuredAngle
 from .settings import Settings
+
+if TYPE_CHECKING:
+    from ..physics.arm import ArmTipForce
 
 
 class Pushed(NamedTuple):

@@ -9,7 +9,7 @@ import math
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import WrenchStamped
@@ -19,12 +19,14 @@ from std_msgs.msg import Header
 from ..estimation.estimate import AnyEstimate
 from ..estimation.tip_force_watch import Pushed
 from ..physics import TendonStaticsError, TipForce
-from ..physics.arm import ArmTipForce
 from ..physics.load import push_along
 from .managed_estimator import ManagedEstimator
 from .outputs import messages
 from .outputs.publishers import output_publisher
 from .services import offer
+
+if TYPE_CHECKING:
+    from ..physics.arm import ArmTipForce
 
 __all__ = ['PERIOD', 'TipForceMessage', 'TipForces', 'tip_force_message', 'tip_wrench_message']
 

@@ -27,7 +27,6 @@ STEP = 1e-5
 """Step of the differences, as a share of the scale of a parameter: truncation and rounding then
 both are some 1e-10 of the derivative"""
 
-
 STENCILS = (
     ((-1.0, -0.5), (1.0, 0.5)),
     ((0.0, -1.5), (1.0, 2.0), (2.0, -0.5)),
@@ -124,8 +123,7 @@ def excess_by_design(
         value = getattr(design, name)
 
         def answer(change: float) -> SlipAnswer:
-            other: dict[str, Any] = {name: value + change}
-            return SlipAnswer(excess(dataclasses.replace(design, **other)), 0.0)
+            return SlipAnswer(excess(_changed(design, name, value + change)), 0.0)
 
         return _slopes(answer, STEP * _scale(known[name], design, total)).excess
 
@@ -149,7 +147,7 @@ def neighbours(design: JointDesign, name: str, total: float) -> list[tuple[Joint
     for stencil in STENCILS:
         try:
             return [
-                (dataclasses.replace(design, **{name: value + place * step}), weight / step)
+                (_changed(design, name, value + place * step), weight / step)
                 for place, weight in stencil
             ]
         except DesignError:

@@ -160,6 +160,11 @@ def score(value: float, variance: float) -> float:
     return math.copysign(math.inf, value) if value else 0.0
 
 
+def as_score(probability: float) -> float:
+    """Return the deviations below which a value is with a probability; never infinite."""
+    return NORMAL.inv_cdf(min(max(probability, 1e-300), 1.0 - 1e-16))
+
+
 @dataclasses.dataclass(frozen=True)
 class Doubt:
     """How much speaks against a force, by what is known of what holds the unit.
@@ -188,9 +193,7 @@ class Doubt:
     def beyond(self, force: float, level: float) -> float:
         """Return by how much the doubt, as a score, is beyond that of a level."""
         most, least = self.bounds(force)
-        doubt = NORMAL.cdf(most) - NORMAL.cdf(least)
-        clipped = min(max(doubt, 1e-300), 1.0 - 1e-16)
-        return NORMAL.inv_cdf(clipped) - NORMAL.inv_cdf(level)
+        return as_score(NORMAL.cdf(most) - NORMAL.cdf(least)) - as_score(level)
 
     def probability(self, force: float) -> float:
         """Return the probability that the exact set has a force.

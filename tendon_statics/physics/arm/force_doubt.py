@@ -18,7 +18,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ..design_uncertainty import DesignUncertainty
-from ..force_scores import NORMAL, STEP, Doubt, ForceScores, Noise
+from ..force_ends import STEP
+from ..force_scores import NORMAL, Doubt, ForceScores, Noise, as_score
 from ..gradients import slip_by_load, slip_by_tensions
 from ..load import DeadLoad
 from ..slip import Slip, SlipPoint
@@ -81,7 +82,8 @@ class JointScores(ForceScores):
         stddevs = noise.bend_angle_stddevs
         self._before = math.hypot(*stddevs[:index])
         """rad, deviation of the tilt of the unit before the joint"""
-        turns = [(0, self._before), *enumerate(stddevs)][index == 0 : 1]
+        # One angle before the joint turns its load as any other does.
+        turns = [(0, self._before)] if index else []
         turns += [(joint, stddevs[joint]) for joint in range(index + 1, len(stddevs))]
         self._by_turns = [
             (NOTHING.plus(dead, stddev), NOTHING.plus(push, stddev))
@@ -167,8 +169,8 @@ class ArmDoubt:
             doubt = max(doubt, NORMAL.cdf(most) - NORMAL.cdf(least))
             if doubt > sure:
                 self._order.insert(0, self._order.pop(place))
-                return _as_score(doubt) - _as_score(sure)
-        return _as_score(doubt) - _as_score(level ** (1.0 / max(1, near)))
+                return as_score(doubt) - as_score(sure)
+        return as_score(doubt) - as_score(level ** (1.0 / max(1, near)))
 
     def probability(self, force: float) -> float:
         """Return the probability that the sets of all joints have a force, as if independent.
@@ -193,10 +195,6 @@ class ArmDoubt:
             return NORMAL.cdf(most) - NORMAL.cdf(least), most
 
         return max(range(len(self.of_joints)), key=doubt) + 1
-
-
-def _as_score(probability: float) -> float:
-    return NORMAL.inv_cdf(min(max(probability, 1e-300), 1.0 - 1e-16))
 
 
 def joint_scores(pushed: PushedArm, noise: ArmNoise) -> list[JointScores]:

@@ -25,7 +25,6 @@ NO_RATE = 1e-300
 UNSOUND = 1e-6
 """Share of f by which it may not be the sum of its modes"""
 
-
 COUPLING = 1e-3
 """Share of J by which it is changed where it has too few eigenvectors"""
 

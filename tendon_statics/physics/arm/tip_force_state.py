@@ -78,7 +78,7 @@ def arm_tip_force_of_state(
         for joint, angle in bend_angles.items()
     }
     of_state = state.bend_angles or (0.0,) * len(arm.units)
-    own_stddevs = stddevs_of_angles(state, tension_stddev)
+    own_stddevs = _stddevs_of_angles(state, tension_stddev)
     angles, stddevs, at_stop = [], [], []
     slips = dict(slipping or {})
     limits = _at_limit(state, tension_stddev) if slipping is None else {}
@@ -130,7 +130,7 @@ def _at_limit(state: ArmState | ArmFilterState, tension_stddev: float) -> dict[i
     if isinstance(state, ArmState):
         at_limit = [index for index, margin in slipping.items() if abs(margin) >= FULL_MARGIN]
     elif slipping:
-        angles, stddevs = list(state.bend_angles or ()), stddevs_of_angles(state, tension_stddev)
+        angles, stddevs = list(state.bend_angles or ()), _stddevs_of_angles(state, tension_stddev)
         known = [stddev or 0.0 for stddev in stddevs]
         pushed = PushedArm.of(state.arm, state.cable_tensions, angles, (1.0, 0.0), state.load)
         scores = joint_scores(pushed, ArmNoise(tension_stddev, known, [None] * len(known)))
@@ -144,7 +144,7 @@ def _at_limit(state: ArmState | ArmFilterState, tension_stddev: float) -> dict[i
     return {index: 's' if slipping[index] > 0.0 else 'l' for index in at_limit}
 
 
-def stddevs_of_angles(
+def _stddevs_of_angles(
     state: ArmState | ArmFilterState, tension_stddev: float
 ) -> tuple[float | None, ...]:
     """Return the deviation in rad of each of a state's own angles, None where it is not known."""

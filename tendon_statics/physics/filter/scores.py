@@ -169,13 +169,9 @@ class Boundary:
         def excess(design: JointDesign) -> float:
             return float(taut_slip(design, reading.tensions, reading.load, side).value(ahead))
 
-        names, covariance = self._uncertainty.parameters, self._uncertainty.covariance
+        names = self._uncertainty.parameters
         slopes = excess_by_design(excess, self.design, names, sum(reading.tensions))
-        return sum(
-            one * other * variance
-            for one, row in zip(slopes, covariance, strict=True)
-            for other, variance in zip(slopes, row, strict=True)
-        )
+        return self._uncertainty.variance(dict(zip(names, slopes, strict=True)))
 
 
 def together(scores: Sequence[Score], signs: Sequence[float]) -> float:
