@@ -9,7 +9,7 @@ import math
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Protocol
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import WrenchStamped
@@ -44,14 +44,25 @@ Line = tuple[tuple[float, float, float], float]
 """Direction of the force that is looked for, and where it acts along the unit's axis, in m"""
 
 
+class Watch(Protocol):
+    """What knows the measured angles of a unit or an arm, and asks."""
+
+    def forget(self) -> None:
+        """Forget what was measured."""
+
+    def ask(self, state: Any, settings: Any, now: float, /) -> Pushed | None:
+        """Return what a state or an estimate tells of the tip force; None if nothing."""
+
+
 class TipForces(ABC):
     """Publishes ``~/tip_force`` and ``~/tip_wrench``, and answers ``~/solve_tip_force``."""
 
     service: type | None
     """Of ``~/solve_tip_force``; None if the interfaces do not have it"""
 
-    def __init__(self, node: ManagedEstimator[Any, Any]) -> None:
+    def __init__(self, node: ManagedEstimator[Any, Any], watch: Watch) -> None:
         self._node = node
+        self._watch = watch
         self._next = 0.0
         self._wrench = output_publisher(node, WrenchStamped, '~/tip_wrench')
         self._forces: Publisher | None = None
@@ -65,18 +76,14 @@ class TipForces(ABC):
             self._forces = output_publisher(node, TipForceMessage, '~/tip_force')
             offer(node, self.service, 'solve_tip_force', self._solve, _refuse)
 
-    @abstractmethod
     def forget(self) -> None:
         """Forget what was measured."""
+        self._watch.forget()
 
     @property
     @abstractmethod
     def _line(self) -> Line:
         """The line of the node's settings."""
-
-    @abstractmethod
-    def _ask(self, estimate: Any, now: float) -> Pushed | None:
-        """Return what an estimate tells; None if nothing."""
 
     @abstractmethod
     def _answer(self, request: Any) -> TipForce | ArmTipForce:
@@ -98,7 +105,7 @@ class TipForces(ABC):
         ]
         if not listeners or now < self._next:
             return
-        pushed = self._ask(estimate, now)
+        pushed = self._watch.ask(estimate, self._node.core.settings, now)
         done = time.monotonic()
         self._next = done + max(PERIOD, (done - now) / SHARE)
         if pushed is None:
