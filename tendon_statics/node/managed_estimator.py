@@ -14,6 +14,7 @@ from ..estimation.estimate import KnownLoad
 from ..estimation.health import Health
 from ..estimation.reading_estimator import ReadingEstimator
 from ..estimation.regimes import INVALID
+from ..files.measuring_parameters import TENSION_STDDEV
 from ..files.parameter_kinds import SettingError
 from ..physics import BendAngleError
 from ..tensions.reason import ReadingError, Reason
@@ -198,8 +199,8 @@ class ManagedEstimator(KindOfEstimator[S, E]):
             and 'tension_stddev' not in self._parameter_overrides
         ):
             self.get_logger().warning(
-                'estimation is filtering, and no tension_stddev came: 0.01 N is taken for the '
-                'noise of each tension, and intervals are as wide as that says'
+                f'estimation is filtering, and no tension_stddev came: {TENSION_STDDEV.default} N '
+                'is taken for the noise of each tension, and intervals are as wide as that says'
             )
 
     # Topics
