@@ -210,6 +210,8 @@ class ManagedEstimator(KindOfEstimator[S, E]):
         self._answers.note_reading(reading.values)
         known = self.known_load()
         lag = max(0.0, 1e-9 * (time.time_ns() - arrival))
+        # What waited because this node was busy is no gap in what it was sent.
+        arrived = time.monotonic() - lag
         if reading.stamp is None:
             measured = 1e-9 * arrival
         else:
@@ -217,8 +219,6 @@ class ManagedEstimator(KindOfEstimator[S, E]):
             offset = measured - 1e-9 * self.get_clock().now().nanoseconds
             self.health.note_offset(offset, core.settings.max_clock_offset)
         was_stale = self.health.stale
-        # What waited because this node was busy is no gap in what it was sent.
-        arrived = time.monotonic() - lag
         try:
             estimate = core.take_readings(reading.values, known, arrived, measured)
         except ReadingError as error:

@@ -26,8 +26,6 @@ from .outputs import messages
 from .outputs.publishers import output_publisher
 from .services import offer
 
-__all__ = ['PERIOD', 'TipForceMessage', 'TipForces', 'tip_force_message', 'tip_wrench_message']
-
 PERIOD = 0.02
 """Least time in s between two of them, each of which takes some 2 ms"""
 
@@ -116,9 +114,9 @@ class TipForces(ABC):
         if self._forces is not None:
             is_assured = estimate.known.is_assured
             self._forces.publish(
-                tip_force_message(header, pushed, along, distance, load_assured=is_assured)
+                _force_message(header, pushed, along, distance, load_assured=is_assured)
             )
-        wrench = tip_wrench_message(header, pushed, along)
+        wrench = _wrench_message(header, pushed, along)
         if wrench is not None:
             self._wrench.publish(wrench)
 
@@ -136,7 +134,7 @@ class TipForces(ABC):
         return _fill(response, found)
 
 
-def tip_force_message(
+def _force_message(
     header: Header,
     pushed: Pushed,
     direction: tuple[float, float],
@@ -153,7 +151,7 @@ def tip_force_message(
     return _fill(message, pushed.found)
 
 
-def tip_wrench_message(
+def _wrench_message(
     header: Header, pushed: Pushed, direction: tuple[float, float]
 ) -> WrenchStamped | None:
     """Return the force as a wrench at the tip, where it is a number that was measured."""
