@@ -134,7 +134,8 @@ class ManagedEstimator(KindOfEstimator[S, E]):
         """Begin to estimate."""
         self._inputs.let_pass_what_waits()
         self._answers.forget_readings()
-        self._forget_more()
+        if self._tip_forces is not None:
+            self._tip_forces.forget()
         if self._has_run:
             self.core.doubt()  # It may have moved while nobody looked.
         self._has_run = True
@@ -229,7 +230,10 @@ class ManagedEstimator(KindOfEstimator[S, E]):
             return reading.stamp or self._time_of(arrival)
 
         self._outputs.publish(estimate, stamp)
-        self._publish_more(estimate, measured, stamp)
+        if self._committed is not None:
+            self._committed.publish(core, measured, stamp)
+        if self._tip_forces is not None:
+            self._tip_forces.publish(estimate, stamp)
         self.health.note_lag(lag, core.settings.input_timeout)
         self._source.tighten()
         self._watchdog.note_valid(was_stale=was_stale)

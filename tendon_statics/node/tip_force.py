@@ -9,7 +9,7 @@ import math
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import WrenchStamped
@@ -21,10 +21,12 @@ from ..estimation.tip_force_watch import Pushed
 from ..physics import TendonStaticsError, TipForce
 from ..physics.arm import ArmTipForce
 from ..physics.load import push_along
-from .managed_estimator import ManagedEstimator
 from .outputs import messages
 from .outputs.publishers import output_publisher
 from .services import offer
+
+if TYPE_CHECKING:
+    from .managed_estimator import ManagedEstimator
 
 PERIOD = 0.02
 """Least time in s between two of them, each of which takes some 2 ms"""
