@@ -3,7 +3,6 @@
 import gc
 import os
 import signal
-from contextlib import ExitStack
 from dataclasses import asdict
 
 import pytest
@@ -64,6 +63,20 @@ def ros_domain():
         yield domain
 
 
+@pytest.fixture(scope='module')
+def browser():
+    """A real one without a window; a test is left out where there is none, but in CI."""
+    from browser import BrowserMissingError, chromium
+
+    try:
+        with chromium() as browser:
+            yield browser
+    except BrowserMissingError as error:
+        if os.environ.get('CI'):
+            raise
+        pytest.skip(str(error))
+
+
 @pytest.fixture
 def listener():
     """A node that keeps what the estimator publishes."""
@@ -78,14 +91,9 @@ def listener():
 def shared_listener():
     """A listener and, in a domain that is theirs, an estimator with its defaults."""
     from listener import Listener
-    from ros_domain import free_domain, in_domain
-    from ros_programs import spinning
+    from own_estimator import own_estimator
 
-    with free_domain() as domain, ExitStack() as stack:
-        # Only they: what a test starts beside them starts in the domain of the run.
-        with in_domain(domain):
-            listener = stack.enter_context(spinning(Listener))
-            stack.enter_context(listener.estimator())
+    with own_estimator(Listener) as listener:
         yield listener
 
 

@@ -81,7 +81,7 @@ class ReadingEstimator(ABC, Generic[S, E]):
         self,
         readings: Sequence[float],
         known: KnownLoad,
-        now: float,
+        arrived: float,
         measured: float = math.nan,
     ) -> E:
         """Take what the load cells say, in their own units; the rest is as in `take_sample`."""
@@ -93,13 +93,13 @@ class ReadingEstimator(ABC, Generic[S, E]):
                 faults.append(fault)
         if faults:
             raise self._refused(worse(*faults))
-        return self.take_sample(tensions, known, now, measured)
+        return self.take_sample(tensions, known, arrived, measured)
 
     def take_sample(
         self,
         tensions: Sequence[float],
         known: KnownLoad,
-        now: float,
+        arrived: float,
         measured: float = math.nan,
     ) -> E:
         """Take the tensions of all cables in N, within their limits; return what they mean.
@@ -108,7 +108,7 @@ class ReadingEstimator(ABC, Generic[S, E]):
         ----------
         known : KnownLoad
             What acts beside them.
-        now : float
+        arrived : float
             When they came, in s of a steady clock.
         measured : float
             When they were measured, on any clock in s; NaN if that is not known.
@@ -118,12 +118,12 @@ class ReadingEstimator(ABC, Generic[S, E]):
         ReadingError
             If they are not plausible, or together do not seat a joint.
         """
-        self._doubt_after_gap(now)
+        self._doubt_after_gap(arrived)
         settings = self._settings
         begin = time.monotonic()
         try:
             believed = self._watch.take(tensions, measured, settings.scales, settings.plausibility)
-            sample = Sample(believed, known, now, measured, self._watch.is_confirmed)
+            sample = Sample(believed, known, arrived, measured, self._watch.is_confirmed)
             estimate = self._followed(sample)
         except ReadingError as error:
             raise self._refused((error.reason, str(error))) from None
@@ -148,10 +148,10 @@ class ReadingEstimator(ABC, Generic[S, E]):
         self.drop(*fault)
         return ReadingError(*fault)
 
-    def _doubt_after_gap(self, now: float) -> None:
+    def _doubt_after_gap(self, arrived: float) -> None:
         if self.newest is not None:
             vouched = max(self.newest.time, self._told_at)
-            if not now - vouched <= self._settings.input_timeout:
+            if not arrived - vouched <= self._settings.input_timeout:
                 self.lose_sight()
 
     def _followed(self, sample: Sample) -> E:

@@ -38,11 +38,11 @@ class UnitEstimator(ReadingEstimator[Settings, Estimate]):
         reading_l: float,
         reading_s: float,
         known: KnownLoad,
-        now: float,
+        arrived: float,
         measured: float = math.nan,
     ) -> Estimate:
         """Take what the load cells say, as `take_readings` does."""
-        return self.take_readings((reading_l, reading_s), known, now, measured)
+        return self.take_readings((reading_l, reading_s), known, arrived, measured)
 
     def put_back(self, now: float) -> str:
         """Put a unit that is remembered to where it began; return where that is, for people."""

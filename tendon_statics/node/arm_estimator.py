@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 
-from builtin_interfaces.msg import Time
 from sensor_msgs.msg import JointState
 
 from ..estimation.arm_estimate import ArmEstimate
@@ -32,10 +31,9 @@ class ArmEstimator(ManagedEstimator[ArmSettings, ArmEstimate]):
     """Publishes what every set of tensions that arrives says of the arm."""
 
     core: ArmFollower
+    _tip_forces: ArmTipForces | None
 
     def __init__(self) -> None:
-        self._tip_forces: ArmTipForces | None = None
-        self._committed: CommittedOutput | None = None
         super().__init__('arm_estimator')
 
     def _declare(self) -> None:
@@ -72,12 +70,12 @@ class ArmEstimator(ManagedEstimator[ArmSettings, ArmEstimate]):
         )
 
     def _connect(self) -> None:
-        if self._wiring.estimation == 'filtering' and not arm_messages.ARM_INTERFACES_MISSING:
+        wiring = self._wiring
+        if wiring.estimation == 'filtering' and not arm_messages.ARM_INTERFACES_MISSING:
             self._committed = CommittedOutput(
-                *(self, arm_messages.ArmEstimate, arm_messages.fill_arm_estimate),
-                self._wiring.frame_id,
+                self, arm_messages.ArmEstimate, arm_messages.fill_arm_estimate, wiring.frame_id
             )
-        if self._wiring.tip_force:
+        if wiring.tip_force:
             self._tip_forces = ArmTipForces(self)
         self._inputs.add('measured_joint_states', JointState, self._on_measured_joint_states)
         offer_arm_services(self)
@@ -102,18 +100,6 @@ class ArmEstimator(ManagedEstimator[ArmSettings, ArmEstimate]):
                 for name, regime in zip(self._wiring.joint_names, newest.regimes, strict=True)
             },
         }
-
-    def _forget_more(self) -> None:
-        if self._tip_forces is not None:
-            self._tip_forces.forget()
-
-    def _publish_more(
-        self, estimate: ArmEstimate, measured: float, stamp: Callable[[], Time]
-    ) -> None:
-        if self._committed is not None:
-            self._committed.publish(self.core, measured, stamp)
-        if self._tip_forces is not None:
-            self._tip_forces.publish(estimate, stamp)
 
     def _on_measured_joint_states(self, message: JointState) -> None:
         angles, fault = measured_joints(message, self._wiring.joint_names)

@@ -6,9 +6,7 @@ import time
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from ..estimation.arm_estimate import ArmEstimate
 from ..estimation.arm_tip_force_watch import ArmTipForceWatch
-from ..estimation.tip_force_watch import Pushed
 from ..physics import ArmError
 from ..physics.arm import ArmTipForce, arm_tip_force
 from .arm_services import asked_tensions
@@ -29,25 +27,18 @@ class ArmTipForces(TipForces):
 
     service = SolveArmTipForce
     _node: ArmEstimator
+    _watch: ArmTipForceWatch
 
     def __init__(self, node: ArmEstimator) -> None:
-        super().__init__(node)
-        self._watch = ArmTipForceWatch(len(node.arm.units))
+        super().__init__(node, ArmTipForceWatch(len(node.arm.units)))
 
     def note_angles(self, bend_angles: Mapping[int, float]) -> None:
         """Take measured angles in rad by the joint; those beyond a stop are told by the arm."""
         self._watch.note_angles(bend_angles, time.monotonic(), self._node.core.settings)
 
-    def forget(self) -> None:
-        """Forget what was measured."""
-        self._watch.forget()
-
     @property
     def _line(self) -> Line:
         return self._node.core.settings.tip_direction, self._node.arm.units[-1].length
-
-    def _ask(self, estimate: ArmEstimate, now: float) -> Pushed | None:
-        return self._watch.ask(estimate, estimate.settings, now)
 
     def _answer(self, request: Any) -> ArmTipForce:
         settings, arm = self._node.core.settings, self._node.arm

@@ -6,7 +6,6 @@ import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from builtin_interfaces.msg import Time
 from std_msgs.msg import Float64
 
 from ..estimation.estimate import Estimate
@@ -31,10 +30,9 @@ class Estimator(ManagedEstimator[Settings, Estimate]):
     """Publishes what every pair of tensions that arrives says of the unit."""
 
     core: UnitEstimator
+    _tip_forces: UnitTipForces | None
 
     def __init__(self) -> None:
-        self._tip_forces: UnitTipForces | None = None
-        self._committed: CommittedOutput | None = None
         super().__init__('estimator')
 
     def _declare(self) -> None:
@@ -83,18 +81,6 @@ class Estimator(ManagedEstimator[Settings, Estimate]):
         return {
             'design values left at the preliminary design': ', '.join(sorted(self.left_out)),
         }
-
-    def _forget_more(self) -> None:
-        if self._tip_forces is not None:
-            self._tip_forces.forget()
-
-    def _publish_more(
-        self, estimate: Estimate, measured: float, stamp: Callable[[], Time]
-    ) -> None:
-        if self._committed is not None:
-            self._committed.publish(self.core, measured, stamp)
-        if self._tip_forces is not None:
-            self._tip_forces.publish(estimate, stamp)
 
     def _on_measured_bend_angle(self, message: Float64) -> None:
         try:

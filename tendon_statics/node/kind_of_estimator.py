@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from builtin_interfaces.msg import Time
 from rclpy.lifecycle import LifecycleNode
 
 from ..estimation.estimate import AnyEstimate
@@ -14,9 +13,13 @@ from ..estimation.health import Health
 from ..estimation.measuring import Measuring
 from ..estimation.reading_estimator import ReadingEstimator
 from .inputs.tension_source import TensionSource
+from .outputs.committed import CommittedOutput
 from .outputs.publishers import Outputs
 from .parameters.table import NodeTable
 from .wiring import CommonWiring
+
+if TYPE_CHECKING:
+    from .tip_force import TipForces
 
 S = TypeVar('S', bound=Measuring)
 E = TypeVar('E', bound=AnyEstimate)
@@ -35,6 +38,9 @@ class KindOfEstimator(LifecycleNode, Generic[S, E]):
 
     table: NodeTable[S]
     left_out: set[str]
+    # Made in `_connect`, where they are asked for.
+    _committed: CommittedOutput | None = None
+    _tip_forces: TipForces | None = None
 
     @abstractmethod
     def _declare(self) -> None:
@@ -76,9 +82,3 @@ class KindOfEstimator(LifecycleNode, Generic[S, E]):
     def values_to_report(self) -> dict[str, str]:
         """What ``/diagnostics`` has of this kind of node alone."""
         return {}
-
-    def _publish_more(self, estimate: E, measured: float, stamp: Callable[[], Time]) -> None:
-        """Publish what is not of every node."""
-
-    def _forget_more(self) -> None:
-        """Forget what was measured while the node was active before."""

@@ -14,6 +14,7 @@ from ..estimation.estimate import KnownLoad
 from ..estimation.health import Health
 from ..estimation.reading_estimator import ReadingEstimator
 from ..estimation.regimes import INVALID
+from ..files.measuring_parameters import TENSION_STDDEV
 from ..files.parameter_kinds import SettingError
 from ..physics import BendAngleError
 from ..tensions.reason import ReadingError, Reason
@@ -133,7 +134,8 @@ class ManagedEstimator(KindOfEstimator[S, E]):
         """Begin to estimate."""
         self._inputs.let_pass_what_waits()
         self._answers.forget_readings()
-        self._forget_more()
+        if self._tip_forces is not None:
+            self._tip_forces.forget()
         if self._has_run:
             self.core.doubt()  # It may have moved while nobody looked.
         self._has_run = True
@@ -198,8 +200,8 @@ class ManagedEstimator(KindOfEstimator[S, E]):
             and 'tension_stddev' not in self._parameter_overrides
         ):
             self.get_logger().warning(
-                'estimation is filtering, and no tension_stddev came: 0.01 N is taken for the '
-                'noise of each tension, and intervals are as wide as that says'
+                f'estimation is filtering, and no tension_stddev came: {TENSION_STDDEV.default} N '
+                'is taken for the noise of each tension, and intervals are as wide as that says'
             )
 
     # Topics
@@ -209,6 +211,8 @@ class ManagedEstimator(KindOfEstimator[S, E]):
         self._answers.note_reading(reading.values)
         known = self.known_load()
         lag = max(0.0, 1e-9 * (time.time_ns() - arrival))
+        # What waited because this node was busy is no gap in what it was sent.
+        arrived = time.monotonic() - lag
         if reading.stamp is None:
             measured = 1e-9 * arrival
         else:
@@ -216,8 +220,6 @@ class ManagedEstimator(KindOfEstimator[S, E]):
             offset = measured - 1e-9 * self.get_clock().now().nanoseconds
             self.health.note_offset(offset, core.settings.max_clock_offset)
         was_stale = self.health.stale
-        # What waited because this node was busy is no gap in what it was sent.
-        arrived = time.monotonic() - lag
         try:
             estimate = core.take_readings(reading.values, known, arrived, measured)
         except ReadingError as error:
@@ -228,7 +230,10 @@ class ManagedEstimator(KindOfEstimator[S, E]):
             return reading.stamp or self._time_of(arrival)
 
         self._outputs.publish(estimate, stamp)
-        self._publish_more(estimate, measured, stamp)
+        if self._committed is not None:
+            self._committed.publish(core, measured, stamp)
+        if self._tip_forces is not None:
+            self._tip_forces.publish(estimate, stamp)
         self.health.note_lag(lag, core.settings.input_timeout)
         self._source.tighten()
         self._watchdog.note_valid(was_stale=was_stale)

@@ -9,7 +9,7 @@ import math
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import WrenchStamped
@@ -20,15 +20,13 @@ from ..estimation.estimate import AnyEstimate
 from ..estimation.tip_force_watch import Pushed
 from ..physics import TendonStaticsError, TipForce
 from ..physics.load import push_along
-from .managed_estimator import ManagedEstimator
 from .outputs import messages
 from .outputs.publishers import output_publisher
 from .services import offer
 
 if TYPE_CHECKING:
     from ..physics.arm import ArmTipForce
-
-__all__ = ['PERIOD', 'TipForceMessage', 'TipForces', 'tip_force_message', 'tip_wrench_message']
+    from .managed_estimator import ManagedEstimator
 
 PERIOD = 0.02
 """Least time in s between two of them, each of which takes some 2 ms"""
@@ -46,14 +44,25 @@ Line = tuple[tuple[float, float, float], float]
 """Direction of the force that is looked for, and where it acts along the unit's axis, in m"""
 
 
+class Watch(Protocol):
+    """What knows the measured angles of a unit or an arm, and asks."""
+
+    def forget(self) -> None:
+        """Forget what was measured."""
+
+    def ask(self, state: Any, settings: Any, now: float, /) -> Pushed | None:
+        """Return what a state or an estimate tells of the tip force; None if nothing."""
+
+
 class TipForces(ABC):
     """Publishes ``~/tip_force`` and ``~/tip_wrench``, and answers ``~/solve_tip_force``."""
 
     service: type | None
     """Of ``~/solve_tip_force``; None if the interfaces do not have it"""
 
-    def __init__(self, node: ManagedEstimator[Any, Any]) -> None:
+    def __init__(self, node: ManagedEstimator[Any, Any], watch: Watch) -> None:
         self._node = node
+        self._watch = watch
         self._next = 0.0
         self._wrench = output_publisher(node, WrenchStamped, '~/tip_wrench')
         self._forces: Publisher | None = None
@@ -67,18 +76,14 @@ class TipForces(ABC):
             self._forces = output_publisher(node, TipForceMessage, '~/tip_force')
             offer(node, self.service, 'solve_tip_force', self._solve, _refuse)
 
-    @abstractmethod
     def forget(self) -> None:
         """Forget what was measured."""
+        self._watch.forget()
 
     @property
     @abstractmethod
     def _line(self) -> Line:
         """The line of the node's settings."""
-
-    @abstractmethod
-    def _ask(self, estimate: Any, now: float) -> Pushed | None:
-        """Return what an estimate tells; None if nothing."""
 
     @abstractmethod
     def _answer(self, request: Any) -> TipForce | ArmTipForce:
@@ -100,7 +105,7 @@ class TipForces(ABC):
         ]
         if not listeners or now < self._next:
             return
-        pushed = self._ask(estimate, now)
+        pushed = self._watch.ask(estimate, self._node.core.settings, now)
         done = time.monotonic()
         self._next = done + max(PERIOD, (done - now) / SHARE)
         if pushed is None:
@@ -111,9 +116,9 @@ class TipForces(ABC):
         if self._forces is not None:
             is_assured = estimate.known.is_assured
             self._forces.publish(
-                tip_force_message(header, pushed, along, distance, load_assured=is_assured)
+                _force_message(header, pushed, along, distance, load_assured=is_assured)
             )
-        wrench = tip_wrench_message(header, pushed, along)
+        wrench = _wrench_message(header, pushed, along)
         if wrench is not None:
             self._wrench.publish(wrench)
 
@@ -131,7 +136,7 @@ class TipForces(ABC):
         return _fill(response, found)
 
 
-def tip_force_message(
+def _force_message(
     header: Header,
     pushed: Pushed,
     direction: tuple[float, float],
@@ -148,7 +153,7 @@ def tip_force_message(
     return _fill(message, pushed.found)
 
 
-def tip_wrench_message(
+def _wrench_message(
     header: Header, pushed: Pushed, direction: tuple[float, float]
 ) -> WrenchStamped | None:
     """Return the force as a wrench at the tip, where it is a number that was measured."""

@@ -5,8 +5,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Any
 
-from ..estimation.estimate import Estimate
-from ..estimation.tip_force_watch import Pushed, TipForceWatch
+from ..estimation.tip_force_watch import TipForceWatch
 from ..physics import LoadError, TipForce, tip_force
 from .tip_force import Line, TipForces
 
@@ -25,10 +24,10 @@ class UnitTipForces(TipForces):
 
     service = SolveTipForce
     _node: Estimator
+    _watch: TipForceWatch
 
     def __init__(self, node: Estimator) -> None:
-        super().__init__(node)
-        self._watch = TipForceWatch()
+        super().__init__(node, TipForceWatch())
 
     def note_angle(self, bend_angle: float) -> None:
         """Take a measured angle in rad.
@@ -40,17 +39,10 @@ class UnitTipForces(TipForces):
         """
         self._watch.note_angle(bend_angle, time.monotonic(), self._node.core.settings)
 
-    def forget(self) -> None:
-        """Forget what was measured."""
-        self._watch.forget()
-
     @property
     def _line(self) -> Line:
         settings = self._node.core.settings
         return settings.tip_direction, settings.tip_distance
-
-    def _ask(self, estimate: Estimate, now: float) -> Pushed | None:
-        return self._watch.ask(estimate, self._node.core.settings, now)
 
     def _answer(self, request: Any) -> TipForce:
         settings = self._node.core.settings

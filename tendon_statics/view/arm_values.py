@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from ..physics import Arm, Regime
-from .estimate_values import COVERAGE, interval_about, regime_named
+from .estimate_values import interval_about, interval_told, regime_named
 
 OF_A_JOINT = ('angle', 'angle_low', 'angle_high', 'pressure', 'slip_margin')
 """What is drawn over time of each joint: angles in degrees, the pressure in Pa"""
@@ -80,12 +80,9 @@ def tip_said(estimate: Any) -> dict[str, TipSaid]:
     found = {}
     for axis in ('x', 'z', 'tilt'):
         value = getattr(estimate, f'tip_{axis}')
-        spread = COVERAGE * getattr(estimate, f'tip_{axis}_stddev')
-        low, high = (getattr(estimate, f'tip_{axis}_{end}') for end in ('low', 'high'))
-        if math.isnan(low):
-            low, high = value - spread, value + spread
-        is_known = all(map(math.isfinite, (value, low, high)))
-        found[axis] = TipSaid(value, (low, high) if is_known else None)
+        stddev = getattr(estimate, f'tip_{axis}_stddev')
+        ends = getattr(estimate, f'tip_{axis}_low'), getattr(estimate, f'tip_{axis}_high')
+        found[axis] = TipSaid(value, interval_told(value, stddev, ends))
     return found
 
 

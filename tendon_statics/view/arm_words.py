@@ -7,12 +7,11 @@ from collections.abc import Iterator, Sequence
 from html import escape
 from typing import Any
 
-from ..estimation.regimes import INVALID, STALE
 from ..physics import Regime
 from .arm_time_figures import line_colours
 from .arm_values import JointSaid, TipSaid, joints_said, tip_said
-from .estimate_values import colour_of_regime, is_present, regime_named
-from .words import LAST_KNOWN, REGIMES, bullets, degrees_between, headline, number, table
+from .estimate_values import colour_of_regime, regime_named
+from .words import REGIMES, angle, bullets, doubts_of_all, headline, number, table
 
 MEANINGS = {
     Regime.SLACK: 'A joint has no tension on one side: nothing is said of any joint.',
@@ -21,13 +20,6 @@ MEANINGS = {
     Regime.HELD: 'Friction holds every joint where it is.',
 }
 """Regime → what it means for an arm; the first that a joint has is what is said of the whole"""
-
-WITHOUT_ESTIMATE = {
-    INVALID: 'The newest reading has no tensions that the model takes.',
-    STALE: 'No valid tensions come any more.',
-    '': 'Nothing comes from it any more.',
-}
-"""As of a unit"""
 
 NO_ARM = (
     'It does not tell its arm_file, or that is not to be had on the machine of this page; without '
@@ -42,25 +34,20 @@ def arm_state_words(estimate: Any, said: str, age: float, *, is_drawn: bool = Tr
 
     Parameters
     ----------
-    said
-        ``invalid`` or ``stale``, if the estimator said so after it.
-    age
-        Seconds since it came.
+    said, age
+        As of `is_present`.
     is_drawn
         Whether the arm is known, so that it is drawn.
     """
     joints = joints_said(estimate)
-    present = is_present(said, age)
     regime = _worst(joints)
     name, meaning = (REGIMES[regime][0], MEANINGS[regime]) if regime else ('unknown', '')
     concerned = [joint.name for joint in joints if regime_named(joint.regime) is regime]
     if regime in (Regime.SLIPPING, Regime.DRIVEN_TO_STOP):
         meaning = f'{", ".join(concerned)}: {meaning[0].lower()}{meaning[1:]}'
-    colour = colour_of_regime(regime.value if regime else '', present=present)
-    if not present:
-        name, meaning = said or name, f'{WITHOUT_ESTIMATE[said]} {LAST_KNOWN}'
     doubts = [*_doubts(estimate, joints), *([] if is_drawn else [NO_ARM])]
-    return headline(name, colour, age, meaning) + table(_numbers(estimate)) + bullets(doubts)
+    head = headline(name, meaning, regime, said, age)
+    return head + table(_numbers(estimate)) + bullets(doubts)
 
 
 def joints_table(estimate: Any, *, present: bool) -> str:
@@ -77,18 +64,15 @@ def joints_table(estimate: Any, *, present: bool) -> str:
 def _cells(joint: JointSaid, line: str, *, present: bool) -> Iterator[str]:
     yield f'<span style="color:{line}">&#9473;</span>'
     yield escape(joint.name)
-    colour = colour_of_regime(joint.regime, present=present)
     regime = regime_named(joint.regime)
+    colour = colour_of_regime(regime, present=present)
     name = REGIMES[regime][0] if regime else joint.regime
     share = f' <small>{100.0 * joint.probability:.0f} %</small>'
     yield (
         f'<span style="color:{colour}">&#9679;</span> {escape(name)}'
         f'{share if math.isfinite(joint.probability) else ""}'
     )
-    angle = number(math.degrees(joint.angle), '.2f', '°')
-    if joint.interval:
-        angle += f'<br><small>{degrees_between(joint.interval)}</small>'
-    yield angle
+    yield angle(joint.angle, joint.interval, '<br>')
     yield number(joint.slip_margin, '+.3f', '')
     yield number(joint.pressure, '.0f', '')
 
@@ -102,10 +86,7 @@ def _numbers(estimate: Any) -> Iterator[tuple[str, str]]:
     tip = tip_said(estimate)
     yield 'tip x', _millimetres(tip['x'])
     yield 'tip z', _millimetres(tip['z'])
-    tilt = number(math.degrees(tip['tilt'].value), '.2f', '°')
-    if tip['tilt'].interval:
-        tilt += f' <small>{degrees_between(tip["tilt"].interval)}</small>'
-    yield 'tip tilt', tilt
+    yield 'tip tilt', angle(*tip['tilt'])
     for name, tension in zip(estimate.cable_names, estimate.tensions, strict=False):
         yield f'tension {escape(name)}', f'{tension:.3f} N'
 
@@ -119,8 +100,8 @@ def _millimetres(tip: TipSaid) -> str:
 
 
 def _doubts(estimate: Any, joints: Sequence[JointSaid]) -> Iterator[str]:
-    if not estimate.load_assured:
-        yield 'What tells the load does not come; the last that was known is taken.'
-    moved = [joint.name for joint in joints if math.isfinite(joint.angle) and not joint.is_assured]
+    known = [joint for joint in joints if math.isfinite(joint.angle)]
+    yield from doubts_of_all(estimate, has_angle=bool(known))
+    moved = [joint.name for joint in known if not joint.is_assured]
     if moved:
         yield f'May have moved unseen, so that the angle is not assured: {", ".join(moved)}.'

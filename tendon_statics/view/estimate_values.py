@@ -34,12 +34,11 @@ def is_present(said: str, age: float) -> bool:
 
 def colour_of(estimate: Any, *, present: bool) -> str:
     """Return the colour that stands for a unit, that of its regime while it is of now."""
-    return colour_of_regime(estimate.regime, present=present)
+    return colour_of_regime(regime_named(estimate.regime), present=present)
 
 
-def colour_of_regime(name: str, *, present: bool) -> str:
+def colour_of_regime(regime: Regime | None, *, present: bool) -> str:
     """Return the colour that stands for a regime, grey if it is not of now, or is none."""
-    regime = regime_named(name)
     return REGIME_COLOURS[regime] if regime and present else GREY
 
 
@@ -65,12 +64,18 @@ def interval_about(
     That is the interval that the estimator gives, else `COVERAGE` standard deviations. Without an
     angle there is none: an interval is about the angle that is told.
     """
+    interval = interval_told(angle, stddev, ends)
+    return (max(interval[0], -math.pi), min(interval[1], math.pi)) if interval else None
+
+
+def interval_told(
+    value: float, stddev: float, ends: tuple[float, float]
+) -> tuple[float, float] | None:
+    """Return where a value is; the rest is as of `interval_about`, but for the half turn."""
     low, high = ends
     if math.isnan(low):
-        low, high = angle - COVERAGE * stddev, angle + COVERAGE * stddev
-    if not all(map(math.isfinite, (angle, low, high))):
-        return None
-    return max(low, -math.pi), min(high, math.pi)
+        low, high = value - COVERAGE * stddev, value + COVERAGE * stddev
+    return (low, high) if all(map(math.isfinite, (value, low, high))) else None
 
 
 def load_of(estimate: Any) -> Load | None:

@@ -14,7 +14,6 @@ UNKNOWN = '_UNKNOWN_'
 OF_TYPE = {f'tendon_statics_interfaces/msg/{kind.estimates.__name__}': kind for kind in KINDS}
 """Type of a topic → the kind of estimator that publishes it"""
 
-
 NAMED_SO = ('/estimate', '/arm_estimate')
 """What the topics end with that say it at once"""
 

@@ -13,6 +13,7 @@ from bokeh.models import CustomJS, Div, Select, Toggle
 
 from ..estimation.regimes import REGIME_COLOURS
 from .arm_panels import ArmPanels
+from .arm_time_figures import TIP_COLOURS
 from .estimators_in_sight import Sighting, estimators_in_sight
 from .kinds import ARM, UNIT
 from .map_figure import NOT_SEATED, ON_MAP
@@ -83,6 +84,7 @@ class Page:
             *((REGIMES[regime][0], REGIME_COLOURS[regime]) for regime in ON_MAP),
             ('not on its seat', NOT_SEATED),
         ]
+        document.template_variables['tip_colours'] = TIP_COLOURS
         document.js_on_event(ConnectionLost, CustomJS(code="document.body.classList.add('lost')"))
         document.add_periodic_callback(self.update, round(1e3 / rate))
         document.on_session_destroyed(lambda _context: self._leave())

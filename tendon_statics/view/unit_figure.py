@@ -5,13 +5,21 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from bokeh.models import Arrow, ColumnDataSource, NormalHead, Range1d
-from bokeh.plotting import figure
+from bokeh.models import ColumnDataSource
 
 from ..physics import JointDesign, Load
+from .drawing import (
+    INK,
+    LOADS,
+    PALE,
+    UPRIGHT,
+    columns,
+    draw_loads,
+    empty_frame,
+    loads_of,
+    name_sides,
+)
 from .estimate_values import angle_interval, colour_of, load_of, pairs_of
-
-INK, PALE, GRAVITY, FORCE = '#222222', '#e4e4e4', '#555555', '#c61a1a'
 
 # Lengths are in radii of the ball, so that units of every size fit the frame.
 WIDTH, BOTTOM, TOP = 3.3, -1.7, 3.3
@@ -19,30 +27,17 @@ ARCS = (0.05, 0.25, 0.3, 0.42)
 """Where the arcs begin and end beyond the corners of the unit: the admissible band, then the
 interval of the angle"""
 
-UPRIGHT = 0.5 * math.pi
-"""What the browser takes the unit's axis for at zero bend: it counts from X, and to the left"""
-
 
 class UnitFigure:
     """Draws one unit in its joint frame: Z upwards, X towards cable s to the right."""
 
     def __init__(self) -> None:
-        self.root = figure(
-            name='unit',
-            x_range=Range1d(-WIDTH, WIDTH),
-            y_range=Range1d(BOTTOM, TOP),
-            aspect_ratio=2.0 * WIDTH / (TOP - BOTTOM),
-            sizing_mode='stretch_width',
-            toolbar_location=None,
-            tools='',
-            outline_line_color=None,
-        )
-        self.root.axis.visible = self.root.grid.visible = False
+        self.root = empty_frame('unit', WIDTH, BOTTOM, TOP)
         self._base = ColumnDataSource({'width': [], 'height': [], 'y': []})
         self._stops = ColumnDataSource({'x': [], 'y': []})
         self._arcs = ColumnDataSource(_arcs([]), name='arcs')
         self._body = ColumnDataSource(_body(None, math.nan, ''), name='body')
-        self._arrows = ColumnDataSource(_arrows([]), name='arrows')
+        self._arrows = ColumnDataSource(columns(LOADS, []), name='arrows')
         self._drawn: Any = None
         self._glyphs()
 
@@ -87,26 +82,8 @@ class UnitFigure:
             source=self._body,
         )
         plot.circle(x=0.0, y=0.0, radius=1.0, fill_color=PALE, line_color='#bbbbbb')
-        plot.text(
-            x=[-2.5, 2.5],
-            y=[-1.5, -1.5],
-            text=['cable l', 'cable s'],
-            text_align='center',
-            text_color=GRAVITY,
-            text_font_size='13px',
-        )
-        plot.add_layout(
-            Arrow(
-                end=NormalHead(size=9, fill_color='colour', line_color='colour'),
-                x_start='x0',
-                y_start='y0',
-                x_end='x1',
-                y_end='y1',
-                line_color='colour',
-                line_width=2,
-                source=self._arrows,
-            )
-        )
+        name_sides(plot, 2.5, -1.5, 'cable')
+        draw_loads(plot, self._arrows)
 
     def draw_design(self, design: JointDesign) -> None:
         """Draw what stays: the base and the stops."""
@@ -137,9 +114,9 @@ class UnitFigure:
         if self._drawn is None or arcs != self._drawn[0]:
             self._arcs.data = _arcs(arcs)
         self._body.data = _body(design, angle, colour)
-        arrows = _load_arrows(design, angle, load) if load else []
-        if _arrows(arrows) != self._arrows.data:
-            self._arrows.data = _arrows(arrows)
+        arrows = columns(LOADS, _loads(design, angle, load))
+        if arrows != self._arrows.data:
+            self._arrows.data = arrows
         self._drawn = new
 
     def clear(self) -> None:
@@ -148,7 +125,7 @@ class UnitFigure:
         self._stops.data = {'x': [], 'y': []}
         self._arcs.data = _arcs([])
         self._body.data = _body(None, math.nan, '')
-        self._arrows.data = _arrows([])
+        self._arrows.data = columns(LOADS, [])
         self._drawn = None
 
 
@@ -167,20 +144,16 @@ def _half_width(design: JointDesign) -> float:
 
 
 def _arcs(rows: list[Any]) -> dict[str, list[Any]]:
-    return {
-        'start': [UPRIGHT - row[1] for row in rows],
-        'end': [UPRIGHT - row[0] for row in rows],
-        **{
-            name: [row[place] for row in rows]
-            for place, name in enumerate(('inner', 'outer', 'colour', 'alpha'), start=2)
-        },
-    }
+    return columns(
+        ('start', 'end', 'inner', 'outer', 'colour', 'alpha'),
+        [(UPRIGHT - high, UPRIGHT - low, *look) for low, high, *look in rows],
+    )
 
 
 def _body(design: JointDesign | None, angle: float, colour: str) -> dict[str, list[Any]]:
     names = ('x', 'y', 'width', 'height', 'angle', 'tip_x', 'tip_y', 'colour')
     if design is None or not math.isfinite(angle):
-        return {name: [] for name in names}
+        return columns(names, [])
     top, bottom = _top(design), 0.1
     height, middle = top - bottom, 0.5 * (top + bottom)
     reach = _reach(design) + ARCS[-1]
@@ -195,25 +168,13 @@ def _body(design: JointDesign | None, angle: float, colour: str) -> dict[str, li
         reach * cosine,
         colour,
     )
-    return {name: [value] for name, value in zip(names, row, strict=True)}
+    return columns(names, [row])
 
 
-def _load_arrows(design: JointDesign, angle: float, load: Load) -> list[Any]:
+def _loads(design: JointDesign, angle: float, load: Load | None) -> list[tuple[Any, ...]]:
     """Gravity in the corner, and the force where it acts, as far as that is known."""
-    x, _, z = load.gravity_direction
-    place_x, place_y = -2.8, 2.6
-    arrows = [
-        (place_x - 0.4 * x, place_y - 0.4 * z, place_x + 0.4 * x, place_y + 0.4 * z, GRAVITY)
-    ]
-    force = math.hypot(*load.tip_force)
-    if force > 0.0 and math.isfinite(angle):
+    tip = None
+    if load is not None and math.isfinite(angle):
         away = min(load.tip_distance / design.ball_radius, 1.3 * _top(design))
-        x, y = away * math.sin(angle), away * math.cos(angle)
-        along_x, along_y = (0.8 * part / force for part in load.tip_force)
-        arrows.append((x - along_x, y - along_y, x, y, FORCE))
-    return arrows
-
-
-def _arrows(rows: list[Any]) -> dict[str, list[Any]]:
-    names = ('x0', 'y0', 'x1', 'y1', 'colour')
-    return {name: [row[place] for row in rows] for place, name in enumerate(names)}
+        tip = away * math.sin(angle), away * math.cos(angle)
+    return loads_of(load, (-2.8, 2.6), tip, half=0.4, length=0.8)

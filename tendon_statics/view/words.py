@@ -14,7 +14,7 @@ from .estimate_values import (
     GREY,
     OLD,
     angle_interval,
-    colour_of,
+    colour_of_regime,
     is_present,
     pairs_of,
     regime_named,
@@ -55,7 +55,7 @@ STYLE = """
 NOT_DETERMINED = 'Where in the band it is, the tensions alone do not tell.'
 
 WITHOUT_ESTIMATE = {
-    INVALID: 'The newest reading is no pair of tensions that the model takes.',
+    INVALID: 'The newest reading has no tensions that the model takes.',
     STALE: 'No valid tensions come any more.',
     '': 'Nothing comes from it any more.',
 }
@@ -105,27 +105,34 @@ def state_words(estimate: Any, said: str, age: float, *, is_drawn: bool = True) 
 
     Parameters
     ----------
-    said
-        ``invalid`` or ``stale``, if the estimator said so after it.
-    age
-        Seconds since it came.
+    said, age
+        As of `is_present`.
     is_drawn
         Whether the unit's design is known, so that it is drawn.
     """
     regime = regime_named(estimate.regime)
     name, meaning = REGIMES[regime] if regime else (estimate.regime, '')
+    if regime is Regime.HELD and not math.isfinite(estimate.bend_angle):
+        meaning += f' {NOT_DETERMINED}' if estimate.admissible_angles else ''
+    doubts = [*_doubts(estimate), *([] if is_drawn else [NO_DESIGN])]
+    head = headline(name, meaning, regime, said, age)
+    return head + table(_numbers(estimate)) + bullets(doubts)
+
+
+def headline(name: str, meaning: str, regime: Regime | None, said: str, age: float) -> str:
+    """Say what is, large, and what it means; or what was, and how old it is, if it is old.
+
+    Parameters
+    ----------
+    name, meaning, regime
+        Of the state: how it is called, what it means, and whose colour it has.
+    said, age
+        As of `is_present`.
+    """
     present = is_present(said, age)
     if not present:
         name, meaning = said or name, f'{WITHOUT_ESTIMATE[said]} {LAST_KNOWN}'
-    elif regime is Regime.HELD and not math.isfinite(estimate.bend_angle):
-        meaning += f' {NOT_DETERMINED}' if estimate.admissible_angles else ''
-    doubts = [*_doubts(estimate), *([] if is_drawn else [NO_DESIGN])]
-    colour = colour_of(estimate, present=present)
-    return headline(name, colour, age, meaning) + table(_numbers(estimate)) + bullets(doubts)
-
-
-def headline(name: str, colour: str, age: float, meaning: str) -> str:
-    """Say what is, large, and what it means; and how old it is, if it is old."""
+    colour = colour_of_regime(regime, present=present)
     old = f' <small>{age:.0f} s ago</small>' if age > OLD else ''
     return f'<h2 style="color:{colour}">{escape(name)}{old}</h2><p>{escape(meaning)}</p>'
 
@@ -137,14 +144,10 @@ def table(rows: Iterable[tuple[str, str]]) -> str:
 
 
 def _numbers(estimate: Any) -> Iterator[tuple[str, str]]:
-    angle = number(math.degrees(estimate.bend_angle), '.2f', '°')
-    interval = angle_interval(estimate)
-    if interval:
-        angle += f' <small>{degrees_between(interval)}</small>'
     pressure = number(estimate.pressure, '.1f', ' Pa')
     if math.isfinite(estimate.pressure) and math.isfinite(estimate.pressure_stddev):
         pressure += f' <small>± {COVERAGE * estimate.pressure_stddev:.1f}</small>'
-    yield 'bend angle', angle
+    yield 'bend angle', angle(estimate.bend_angle, angle_interval(estimate))
     if regime_named(estimate.regime) is not Regime.SLACK:
         bands = pairs_of(list(estimate.admissible_angles))
         yield 'can hold at', ', '.join(map(degrees_between, bands)) or 'nowhere'
@@ -153,6 +156,12 @@ def _numbers(estimate: Any) -> Iterator[tuple[str, str]]:
     if math.isfinite(estimate.consistency):
         yield 'consistency', f'{estimate.consistency:.3f}'
     yield 'tensions l, s', f'{estimate.tension_l:.3f} N, {estimate.tension_s:.3f} N'
+
+
+def angle(value: float, interval: tuple[float, float] | None, between: str = ' ') -> str:
+    """Say an angle in rad, and where it is believed to be."""
+    said = number(math.degrees(value), '.2f', '°')
+    return f'{said}{between}<small>{degrees_between(interval)}</small>' if interval else said
 
 
 def degrees_between(interval: tuple[float, float]) -> str:
@@ -166,13 +175,19 @@ def number(value: float, form: str, unit: str) -> str:
     return f'{value:{form}}{unit}' if math.isfinite(value) else 'not determined'
 
 
-def _doubts(estimate: Any) -> Iterator[str]:
+def doubts_of_all(estimate: Any, *, has_angle: bool) -> Iterator[str]:
+    """Say what casts doubt on an estimate of a unit and of an arm alike."""
     if not estimate.load_assured:
         yield 'What tells the load does not come; the last that was known is taken.'
-    if not math.isfinite(estimate.bend_angle):
-        return
-    if estimate.provisional:
+    if has_angle and estimate.provisional:
         yield 'Provisional: readings to come may take it back.'
+
+
+def _doubts(estimate: Any) -> Iterator[str]:
+    has_angle = math.isfinite(estimate.bend_angle)
+    yield from doubts_of_all(estimate, has_angle=has_angle)
+    if not has_angle:
+        return
     if not estimate.angle_assured:
         yield 'The unit may have moved unseen: its angle is not assured.'
     if not estimate.branch_consistent:

@@ -1,9 +1,6 @@
 """Pages of HTML in print and on a phone."""
 
-import os
-
 import pytest
-from browser import BrowserMissingError, chromium
 from programs import run
 
 SESSION = 'config/recorded_session.mcap'
@@ -15,17 +12,6 @@ def report(tmp_path_factory):
     done = run('report', SESSION, '--motion-step-deg', 3, '--output', output)
     assert done.returncode == 0, done.stderr
     return output
-
-
-@pytest.fixture(scope='module')
-def browser():
-    try:
-        with chromium() as browser:
-            yield browser
-    except BrowserMissingError as error:
-        if os.environ.get('CI'):
-            raise
-        pytest.skip(str(error))
 
 
 def test_a_report_on_a_phone_is_as_wide_as_the_phone_and_its_figures_are_legible(report, browser):

@@ -5,15 +5,14 @@ import json
 import math
 import random
 import time
-from contextlib import ExitStack
 
 import pytest
 from arm_client import ArmClient, array, same, values
 from diagnostic_msgs.msg import DiagnosticStatus
 from forked_programs import ForkedProgram
+from own_estimator import own_estimator
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
-from ros_domain import free_domain, in_domain
 from ros_programs import Program, spinning, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
@@ -43,16 +42,14 @@ def session():
     return [dict(zip(names, map(float, row[1:]), strict=True)) for row in rows]
 
 
+def new_client(context):
+    return ArmClient(context, ARM.cable_names)
+
+
 @pytest.fixture(scope='module')
 def shared_arm():
     """A client and, in a domain that is theirs, an estimator of the installed arm."""
-    with free_domain() as domain, ExitStack() as stack:
-        # Only they: what a test starts beside them starts in the domain of the run.
-        with in_domain(domain):
-            client = stack.enter_context(
-                spinning(lambda context: ArmClient(context, ARM.cable_names))
-            )
-            stack.enter_context(client.estimator(*LONG))
+    with own_estimator(new_client, *LONG) as client:
         yield client
 
 
@@ -69,7 +66,7 @@ def arm(shared_arm):
 @pytest.fixture
 def client():
     """A client of its own, for an estimator that a test starts."""
-    with spinning(lambda context: ArmClient(context, ARM.cable_names)) as node:
+    with spinning(new_client) as node:
         yield node
 
 

@@ -7,8 +7,8 @@ import pytest
 from arm_client import ArmClient
 from geometry_msgs.msg import WrenchStamped
 from list_entities import alone, entities
-from rclpy.time import Time
 from ros_programs import ask, spinning, wait_for
+from stamps import stamp
 from tendon_statics_interfaces.msg import TipForce
 from tendon_statics_interfaces.srv import SolveArmTipForce
 
@@ -71,10 +71,6 @@ def pulled(pull):
         tensions = HELD | {'s_tip': tension}
         state = tracker.update(tensions, Load(tip_force=(FORCE, 0.0)))
     return tensions, dict(zip(NAMES, state.bend_angles, strict=True))
-
-
-def stamp(message):
-    return Time.from_msg(message.header.stamp).nanoseconds
 
 
 def test_a_set_at_rest_and_a_force_while_a_measured_joint_moves(pushed):

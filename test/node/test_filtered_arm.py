@@ -1,15 +1,13 @@
 """The installed estimator of an arm with ``estimation: filtering``."""
 
 import itertools
-from contextlib import ExitStack
 
-import numpy as np
 import pytest
 from arm_client import ArmClient
-from rclpy.qos import QoSProfile
-from rclpy.time import Time
-from ros_domain import free_domain, in_domain
-from ros_programs import spinning, wait_for
+from filtered import FILTERING, noisy, smoothed
+from own_estimator import own_estimator
+from ros_programs import wait_for
+from stamps import stamp
 from tendon_statics_interfaces.msg import ArmEstimate
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -17,34 +15,23 @@ from tendon_statics import load_arm
 from tendon_statics.files.installed_files import installed_config
 
 ARM = load_arm(installed_config('arm.yaml'))
-NOISE = 0.02
-LAG = 0.05
-"""s"""
+
+
+class CommittedClient(ArmClient):
+    """Keeps what is committed and drawn too."""
+
+    def __init__(self, context):
+        super().__init__(context, ARM.cable_names)
+        self.committed, self.drawings = [], []
+        self._keep(ArmEstimate, 'arm_estimator/committed_estimate', self.committed)
+        self._keep(MarkerArray, 'arm_estimator/markers', self.drawings)
 
 
 @pytest.fixture(scope='module')
 def filtering():
     """A client and, in a domain that is theirs, an estimator that filters."""
-    with free_domain() as domain, ExitStack() as stack:
-        with in_domain(domain):
-            client = stack.enter_context(
-                spinning(lambda context: ArmClient(context, ARM.cable_names))
-            )
-            client.committed, client.drawings = [], []
-            for kind, topic, store in (
-                (ArmEstimate, 'committed_estimate', client.committed),
-                (MarkerArray, 'markers', client.drawings),
-            ):
-                client.create_subscription(
-                    kind, f'arm_estimator/{topic}', store.append, QoSProfile(depth=5000)
-                )
-            stack.enter_context(
-                client.estimator(
-                    *('-p', 'estimation:=filtering', '-p', f'tension_stddev:={NOISE}'),
-                    *('-p', f'filter_lag:={LAG}', '-p', 'markers:=true'),
-                    *('-p', 'input_timeout:=60.0'),
-                )
-            )
+    more = ('-p', 'markers:=true', '-p', 'input_timeout:=60.0')
+    with own_estimator(CommittedClient, *FILTERING, *more) as client:
         yield client
 
 
@@ -58,34 +45,23 @@ def arm(filtering):
     return filtering
 
 
-def noisy():
+def holding():
     """Tensions that hold the arm, with noise, over and over."""
-    noise = np.random.default_rng(4).normal(0.0, NOISE, (60, len(ARM.cables)))
-    return itertools.cycle(
-        [dict(zip(ARM.cable_names, row, strict=True)) for row in (1.0 + noise).tolist()]
-    )
-
-
-def stamp(message):
-    return Time.from_msg(message.header.stamp).nanoseconds
+    names = ARM.cable_names
+    readings = noisy([1.0] * len(names), 60)
+    return itertools.cycle([dict(zip(names, row, strict=True)) for row in readings])
 
 
 def test_the_newest_is_provisional_and_stays_a_lag_later_with_smoothed_tensions(arm):
-    samples = noisy()
+    samples = holding()
 
     def followed():
-        """Those committed that other tensions followed in time, which a machine may delay."""
         arm.send(next(samples))
         arm.answer(next(samples))
-        later = [stamp(estimate) for estimate in arm.estimates]
-        return [
-            one
-            for one in arm.committed
-            if any(0 < other - stamp(one) < 1e9 * LAG for other in later)
-        ]
+        return smoothed(arm.committed, arm.estimates)
 
     wait_for('some estimates that stay', lambda: len(followed()) > 5)
-    smoothed = followed()
+    found = followed()
     newest = {stamp(estimate): estimate for estimate in arm.estimates}
     assert all(estimate.provisional for estimate in newest.values())
     wait_for('the estimates of those', lambda: len(arm.estimates) >= len(arm.committed))
@@ -94,7 +70,7 @@ def test_the_newest_is_provisional_and_stays_a_lag_later_with_smoothed_tensions(
         assert not estimate.provisional
         assert stamp(estimate) in newest
         assert list(estimate.cable_names) == list(ARM.cable_names)
-    for estimate in smoothed:
+    for estimate in found:
         assert list(estimate.tensions) != list(newest[stamp(estimate)].tensions)
         for low, angle, high in zip(
             *(estimate.bend_angle_lows, estimate.bend_angles, estimate.bend_angle_highs),
@@ -104,7 +80,7 @@ def test_the_newest_is_provisional_and_stays_a_lag_later_with_smoothed_tensions(
 
 
 def test_a_doubt_ends_what_waits_to_stay(arm):
-    samples = noisy()
+    samples = holding()
     last = arm.answer(next(samples))
     slack = arm.answer(dict.fromkeys(ARM.cable_names, 0.0))
     assert set(slack.regimes) == {'slack'}
@@ -120,7 +96,7 @@ def test_a_doubt_ends_what_waits_to_stay(arm):
 
 
 def test_markers_show_the_band_of_each_joint_while_it_filters(arm):
-    samples = noisy()
+    samples = holding()
 
     def bands():
         arm.answer(next(samples))

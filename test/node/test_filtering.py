@@ -3,20 +3,20 @@
 import itertools
 import json
 import math
-from contextlib import ExitStack
 
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticStatus
+from filtered import FILTERING, noisy, smoothed
 from forked_programs import ForkedProgram
 from list_entities import alone
 from listener import Listener, reliable_input
+from own_estimator import own_estimator
 from programs import run
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
-from rclpy.time import Time
-from ros_domain import free_domain, in_domain
-from ros_programs import spinning, wait_for
+from ros_programs import wait_for
+from stamps import stamp
 from std_msgs.msg import Float64
 from tendon_statics_interfaces.msg import Estimate
 
@@ -27,36 +27,27 @@ from tendon_statics.node.estimator import Estimator
 
 HELD, SLIPPING, STOP, SLACK = (1.0, 1.5), (1.0, 2.0), (1.0, 3.0), (0.0, 2.0)
 REGIMES = ('equilibrium', 'held', 'slipping', 'driven_to_stop', 'slack')
-NOISE = 0.02
-LAG = 0.05
-"""s"""
+
+
+class CommittedListener(Listener):
+    """Keeps what is committed too."""
+
+    def __init__(self, context):
+        super().__init__(context)
+        self.committed = []
+        self.create_subscription(
+            Estimate,
+            'estimator/committed_estimate',
+            self.committed.append,
+            QoSProfile(depth=5000),
+        )
 
 
 @pytest.fixture(scope='module')
 def filtering():
     """A listener and, in a domain that is theirs, an estimator that filters."""
-    with free_domain() as domain, ExitStack() as stack:
-        with in_domain(domain):
-            listener = stack.enter_context(spinning(Listener))
-            listener.committed = []
-            listener.create_subscription(
-                Estimate,
-                'estimator/committed_estimate',
-                listener.committed.append,
-                QoSProfile(depth=5000),
-            )
-            stack.enter_context(
-                listener.estimator(
-                    *('-p', 'estimation:=filtering', '-p', f'tension_stddev:={NOISE}'),
-                    *('-p', f'filter_lag:={LAG}', *reliable_input()),
-                )
-            )
+    with own_estimator(CommittedListener, *FILTERING, *reliable_input()) as listener:
         yield listener
-
-
-def noisy(pair, count):
-    noise = np.random.default_rng(4).normal(0.0, NOISE, (count, 2))
-    return (np.array(pair) + noise).tolist()
 
 
 def stream(listener, pairs):
@@ -70,10 +61,6 @@ def stream(listener, pairs):
 
 def probabilities(estimate):
     return [getattr(estimate, f'probability_{regime}') for regime in REGIMES]
-
-
-def stamp(message):
-    return Time.from_msg(message.header.stamp).nanoseconds
 
 
 def test_a_stream_has_interval_probabilities_pose_and_committed_estimates(filtering):
@@ -104,24 +91,18 @@ def test_what_is_committed_is_smoothed_by_what_followed_within_the_lag(filtering
     pairs = itertools.cycle(noisy(HELD, 60))
 
     def followed():
-        """Those committed that another pair followed in time, which a busy machine may delay."""
         filtering.publish(*next(pairs))
         filtering.answer(*next(pairs))
-        later = [stamp(estimate) for estimate in filtering.estimates]
-        return [
-            one
-            for one in filtering.committed
-            if any(0 < other - stamp(one) < 1e9 * LAG for other in later)
-        ]
+        return smoothed(filtering.committed, filtering.estimates)
 
     wait_for('some estimates', lambda: len(followed()) > 5)
-    smoothed = followed()
+    found = followed()
     wait_for('the rest', filtering.has_all_estimates)
     raw = {stamp(estimate): estimate.tension_s for estimate in filtering.estimates}
     for estimate in filtering.committed:
         assert not estimate.provisional
         assert stamp(estimate) in raw
-    for estimate in smoothed:
+    for estimate in found:
         assert estimate.tension_s not in raw.values()
 
 

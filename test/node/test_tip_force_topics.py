@@ -7,8 +7,8 @@ import pytest
 from designs import PRELIMINARY
 from geometry_msgs.msg import WrenchStamped
 from list_entities import alone, entities
-from rclpy.time import Time
 from ros_programs import ask, wait_for
+from stamps import stamp
 from std_msgs.msg import Float64
 from tendon_statics_interfaces.msg import TipForce
 from tendon_statics_interfaces.srv import SolveTipForce
@@ -54,10 +54,6 @@ def told(listener, angle: float, said) -> bool:
     listener.measured_bend_angle.publish(Float64(data=angle))
     listener.answer(*PAIR)
     return said()
-
-
-def stamp(message):
-    return Time.from_msg(message.header.stamp).nanoseconds
 
 
 def test_a_set_at_rest_and_a_force_while_the_measured_angle_moves(pushed):

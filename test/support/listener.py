@@ -24,9 +24,9 @@ from rcl_interfaces.srv import (
 from rclpy.context import Context
 from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.qos import QoSProfile
-from rclpy.time import Time
 from ros_programs import Program, answer_of, wait_for
 from sensor_msgs.msg import JointState
+from stamps import stamp
 from std_msgs.msg import Float64, Header
 from std_srvs.srv import Trigger
 from tendon_statics_interfaces.srv import LoadDesign, SolveInverse
@@ -82,7 +82,7 @@ class Listener(EstimatorClient):
         )
 
     def _keep_report(self, message: DiagnosticArray) -> None:
-        time = Time.from_msg(message.header.stamp).nanoseconds
+        time = stamp(message)
         self.diagnostics.extend(message.status)
         self._reported.extend(time for _ in message.status)
 

@@ -1,11 +1,9 @@
 """The live page of an arm in a real browser, fed by a real node."""
 
-import os
 from contextlib import ExitStack
 
 import numpy as np
 import pytest
-from browser import BrowserMissingError, chromium
 from forked_programs import ForkedProgram
 from live_page import LivePage, view_url
 from ros_domain import free_domain, in_domain
@@ -18,17 +16,6 @@ FILE = installed_config('arm.yaml')
 ARM = load_arm(FILE)
 TENSIONS = {'l_mid': 1.0, 's_mid': 1.0, 'l_tip': 1.0, 's_tip': 1.6}
 REACH = sum(unit.length for unit in ARM.units)
-
-
-@pytest.fixture(scope='module')
-def browser():
-    try:
-        with chromium() as browser:
-            yield browser
-    except BrowserMissingError as error:
-        if os.environ.get('CI'):
-            raise
-        pytest.skip(str(error))
 
 
 @pytest.fixture(scope='module')

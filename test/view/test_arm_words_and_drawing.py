@@ -17,6 +17,7 @@ from tendon_statics.node.outputs.arm_messages import fill_arm_estimate
 from tendon_statics.view.arm_figure import ArmFigure
 from tendon_statics.view.arm_values import arm_names, arm_sample, is_of, joints_said
 from tendon_statics.view.arm_words import NO_ARM, arm_state_words, joints_table
+from tendon_statics.view.drawing import FORCE
 from tendon_statics.view.estimate_values import GREY, OLD
 from tendon_statics.view.words import LAST_KNOWN
 
@@ -114,6 +115,12 @@ def test_a_joint_that_may_have_moved_unseen_is_named():
     assert 'moved unseen' not in arm_state_words(tracked(BENT), '', 0.0)
 
 
+def test_what_a_filter_may_take_back_is_said_to_be_provisional():
+    assert 'Provisional' in arm_state_words(filtered(*[EVEN] * 10), '', 0.0)
+    assert 'Provisional' not in arm_state_words(filtered(*[EVEN] * 10, SLACK), '', 0.0)
+    assert 'Provisional' not in arm_state_words(tracked(EVEN), '', 0.0)
+
+
 def test_the_probability_of_a_regime_is_that_of_the_message():
     estimate = filtered(*[EVEN] * 10)
     for place, joint in enumerate(joints_said(estimate)):
@@ -135,3 +142,18 @@ def test_of_an_arm_that_is_left_nothing_stays():
     figure.draw(ARM, tracked(BENT))
     figure.clear()
     assert not any(any(source.data.values()) for source in figure._sources.values())
+
+
+def test_gravity_is_an_arrow_in_the_corner_and_the_force_one_that_ends_at_the_tip():
+    estimate, figure = tracked(BENT), ArmFigure()
+    figure.draw(ARM, estimate)
+    (gravity,) = figure._sources['loads'].data['colour']
+    estimate.tip_force_x = -0.2
+    figure.draw(ARM, estimate)
+    arrows, units = figure._sources['loads'].data, figure._sources['units'].data
+    assert arrows['colour'] == [gravity, FORCE]
+    assert arrows['x0'][0] == arrows['x1'][0]
+    assert arrows['z1'][0] < arrows['z0'][0]
+    assert (arrows['x1'][1], arrows['z1'][1]) == (units['x1'][-1], units['z1'][-1])
+    assert arrows['x0'][1] > arrows['x1'][1]
+    assert arrows['z0'][1] == arrows['z1'][1]

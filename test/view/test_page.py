@@ -1,14 +1,12 @@
 """The live page in a real browser, fed by real nodes."""
 
 import math
-import os
 import signal
 import time
 from contextlib import ExitStack
 
 import numpy as np
 import pytest
-from browser import BrowserMissingError, chromium
 from forked_programs import ForkedProgram
 from live_page import LivePage, forwarded, view_url
 from rclpy.node import Node
@@ -27,17 +25,6 @@ DESIGN = load_design(default_design_path())
 PUBLISHED = (paper.TENSION_L, paper.TENSION_S)
 HELD = (1.0, 1.5)
 FILES = {'left': PUBLISHED, 'right': HELD}
-
-
-@pytest.fixture(scope='module')
-def browser():
-    try:
-        with chromium() as browser:
-            yield browser
-    except BrowserMissingError as error:
-        if os.environ.get('CI'):
-            raise
-        pytest.skip(str(error))
 
 
 class Rig:

@@ -22,8 +22,9 @@ from tendon_statics.estimation.filtered_estimate import FilteredEstimate
 from tendon_statics.estimation.regimes import INVALID, STALE
 from tendon_statics.estimation.settings import Settings
 from tendon_statics.node.outputs.messages import fill_estimate
+from tendon_statics.view.drawing import INK, UPRIGHT
 from tendon_statics.view.estimate_values import GREY, OLD, is_present
-from tendon_statics.view.unit_figure import INK, UPRIGHT, UnitFigure
+from tendon_statics.view.unit_figure import UnitFigure
 from tendon_statics.view.unit_sample import unit_sample
 from tendon_statics.view.words import LAST_KNOWN, NO_DESIGN, NOT_DETERMINED, state_words
 
