@@ -11,12 +11,17 @@ from typing import Any, NamedTuple
 
 from ..estimation.arm_settings import ArmSettings
 from ..files.arm_file import load_arm, load_arm_uncertainties
-from ..files.arm_parameters import ARM_ESTIMATIONS, ARM_TENSION_SOURCES
+from ..files.arm_parameters import (
+    ARM_ESTIMATIONS,
+    ARM_PARAMETERS,
+    ARM_TENSION_SOURCES,
+    cable_table,
+)
 from ..files.arm_settings import arm_settings_from, check_cables, joint_names
 from ..files.known_parameters import check_parameters_of_ros
 from ..files.parameter_file import node_parameters, read_parameters
 from ..files.parameter_form import ParameterFileError
-from ..files.parameter_kinds import SettingError
+from ..files.parameter_kinds import SettingError, in_their_types
 from ..physics import ArmError, Load
 from ..physics.deviations import TENSION_STDDEV
 from ..physics.load import push_along
@@ -176,7 +181,8 @@ def _settings_from(options: argparse.Namespace) -> tuple[ArmSettings, Mapping[st
     try:
         if path is not None:
             node = options.node if options.node.startswith('/') else f'/{options.node}'
-            given = node_parameters(read_parameters(Path(path)), node)
+            table = (*ARM_PARAMETERS, *cable_table(arm.cable_names))
+            given = in_their_types(table, node_parameters(read_parameters(Path(path)), node))
             check_parameters_of_ros(given)
             check_cables(arm, given)
         named = options.joint_names or given.get('joint_names') or ()
