@@ -11,12 +11,17 @@ from typing import Any, NamedTuple
 
 from ..estimation.arm_settings import ArmSettings
 from ..files.arm_file import load_arm, load_arm_uncertainties
-from ..files.arm_parameters import ARM_ESTIMATIONS, ARM_TENSION_SOURCES
+from ..files.arm_parameters import (
+    ARM_ESTIMATIONS,
+    ARM_PARAMETERS,
+    ARM_TENSION_SOURCES,
+    cable_table,
+)
 from ..files.arm_settings import arm_settings_from, check_cables, joint_names
 from ..files.known_parameters import check_parameters_of_ros
 from ..files.parameter_file import node_parameters, read_parameters
 from ..files.parameter_form import ParameterFileError
-from ..files.parameter_kinds import SettingError
+from ..files.parameter_kinds import SettingError, in_their_types
 from ..physics import ArmError, Load
 from ..physics.deviations import TENSION_STDDEV
 from ..physics.load import push_along
@@ -151,21 +156,32 @@ def followed_arm(options: argparse.Namespace, most_tips: int | None = None) -> F
             'estimation is filtering, which needs the noise of the load cells: give '
             '--tension-stddev, in N, or tension_stddev in the parameter file'
         )
+    asked = _asked_of_tip(options, settings)
     load = _load_from(options, settings, recording)
     replayed = replay_arm(settings, recording, estimation, load=load, progress=with_progress)
-    if getattr(options, 'direction', None) is None:
+    if asked is None:
         return FollowedArm(settings, replayed)
-    x, z, _, _ = push_along(options.direction, settings.arm.units[-1].length)
-    settings = dataclasses.replace(
-        settings, tip_direction=(x, 0.0, z), tip_force_level=options.level
-    )
-    if options.bend_angle_stddev_deg is not None:
-        stddev = math.radians(options.bend_angle_stddev_deg)
-        settings = dataclasses.replace(settings, measured_bend_angle_stddev=stddev)
     tips = arm_tip_forces(
-        *(settings, recording, estimation), load=load, most=most_tips, progress=with_progress
+        *(asked, recording, estimation), load=load, most=most_tips, progress=with_progress
     )
-    return FollowedArm(settings, replayed, tips)
+    return FollowedArm(asked, replayed, tips)
+
+
+def _asked_of_tip(options: argparse.Namespace, settings: ArmSettings) -> ArmSettings | None:
+    """Return settings with what is asked of a force at the tip; None if nothing is.
+
+    Raises
+    ------
+    LoadError
+        If the direction is none; before the arm is followed, which may take long.
+    """
+    if getattr(options, 'direction', None) is None:
+        return None
+    x, z, _, _ = push_along(options.direction, settings.arm.units[-1].length)
+    changed = {'tip_direction': (x, 0.0, z), 'tip_force_level': options.level}
+    if options.bend_angle_stddev_deg is not None:
+        changed['measured_bend_angle_stddev'] = math.radians(options.bend_angle_stddev_deg)
+    return dataclasses.replace(settings, **changed)
 
 
 def _settings_from(options: argparse.Namespace) -> tuple[ArmSettings, Mapping[str, Any]]:
@@ -176,7 +192,8 @@ def _settings_from(options: argparse.Namespace) -> tuple[ArmSettings, Mapping[st
     try:
         if path is not None:
             node = options.node if options.node.startswith('/') else f'/{options.node}'
-            given = node_parameters(read_parameters(Path(path)), node)
+            table = (*ARM_PARAMETERS, *cable_table(arm.cable_names))
+            given = in_their_types(table, node_parameters(read_parameters(Path(path)), node))
             check_parameters_of_ros(given)
             check_cables(arm, given)
         named = options.joint_names or given.get('joint_names') or ()

@@ -27,6 +27,8 @@ from ..node.program import StartError
 from ..physics.arm import Arm
 from ..recordings.errors import RecordingError
 from ..recordings.reading.load import load_arm_recording, load_recording
+from ..recordings.reading.topics import DEFAULT_TENSIONS
+from ..recordings.reading.units import OF_UNIT as OF_TABLE
 from .faults import FaultMaker, Reading
 from .publishers import (
     ArrayPublisher,
@@ -61,6 +63,17 @@ def _rows(file: str, arm: Arm | None) -> Sequence[tuple[float, ...]]:
     return load_arm_recording(path, arm).whole().tensions()
 
 
+def _without_options(text: str, arm: Arm | None) -> str:
+    """Say what is to be done where an error names options, of which a driver has none."""
+    if '--' not in text:
+        return text
+    titles = OF_TABLE.required if arm is None else arm.cable_names
+    return (
+        f'{text}; pulley_driver has no such options: it plays a table with the columns '
+        f'{", ".join(titles)} in N, or a bag with these on {DEFAULT_TENSIONS}'
+    )
+
+
 class PulleyDriver(Node):
     """Publishes the rows of a tension file at a steady rate."""
 
@@ -80,7 +93,7 @@ class PulleyDriver(Node):
         try:
             self._rows = _rows(values['file'], arm)
         except RecordingError as error:
-            raise StartError(str(error)) from None
+            raise StartError(_without_options(str(error), arm)) from None
         warn_of_unknown_parameters(self)
         for fault in STAMP_FAULTS:
             if settings.probability(fault) > 0.0 and isinstance(self._publisher, ArrayPublisher):

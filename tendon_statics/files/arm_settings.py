@@ -25,7 +25,7 @@ from .arm_parameters import (
 )
 from .installed_files import installed_config
 from .measuring_values import cable_scale, check_directions, measuring_in, numbers_in
-from .parameter_kinds import SettingError
+from .parameter_kinds import SettingError, check_given
 
 
 def arm_in(arm_file: str) -> Arm:
@@ -103,9 +103,7 @@ def check_arm_parameters(arm: Arm, values: Mapping[str, Any]) -> None:
     SettingError
         If a value is not allowed; the text names the parameter, its value and what is allowed.
     """
-    for parameter in (*ARM_PARAMETERS, *cable_table(arm.cable_names)):
-        if parameter.name in values:
-            parameter.check(values[parameter.name])
+    check_given((*ARM_PARAMETERS, *cable_table(arm.cable_names)), values)
     check_directions(values)
 
 

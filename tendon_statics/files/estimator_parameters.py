@@ -52,7 +52,7 @@ from .parameter_kinds import (
     NumberParameter,
     Parameter,
     TextParameter,
-    number_of_text,
+    in_their_types,
 )
 
 ESTIMATIONS = tuple(METHODS)
@@ -155,12 +155,12 @@ ESTIMATOR_PARAMETERS: tuple[Parameter, ...] = (*WIRING, *CHANGEABLE)
 """All but the design's, see `design_table`"""
 
 
-def design_table(default: JointDesign) -> tuple[Parameter, ...]:
-    """Return the design's parameters, with the values of a design for what is not given."""
+def design_table(default: JointDesign | None = None) -> tuple[Parameter, ...]:
+    """Return the design's parameters; what is not given has the value of a design, if any."""
     return tuple(
         NumberParameter(
             DESIGN + field.name,
-            getattr(default, field.name),
+            getattr(default, field.name, math.nan),
             f'{field.description} ({field.symbol})',
             minimum=field.minimum,
             maximum=field.maximum,
@@ -169,7 +169,7 @@ def design_table(default: JointDesign) -> tuple[Parameter, ...]:
         if isinstance(field, DesignParameter)
         else ChoiceParameter(
             DESIGN + field.name,
-            getattr(default, field.name),
+            getattr(default, field.name, ''),
             field.description,
             choices=field.choices,
             is_fixed=False,
@@ -178,13 +178,9 @@ def design_table(default: JointDesign) -> tuple[Parameter, ...]:
     )
 
 
-def with_numbers(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return values by name as the node takes them: also the text of a number for the number."""
-    numbers = {of.name for of in ESTIMATOR_PARAMETERS if isinstance(of, NumberParameter)}
-    numbers |= {DESIGN + of.name for of in design_fields() if isinstance(of, DesignParameter)}
-    return {
-        name: number_of_text(value) if name in numbers else value for name, value in values.items()
-    }
+def as_kept(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return values by name as the node keeps them, such as the number for its text."""
+    return in_their_types((*ESTIMATOR_PARAMETERS, *design_table()), values)
 
 
 def known_names() -> set[str]:

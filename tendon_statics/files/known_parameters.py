@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 
 from .estimator_parameters import known_names
-from .parameter_kinds import Parameter, SettingError, SwitchParameter
+from .parameter_kinds import Parameter, SettingError, SwitchParameter, check_given
 
 QOS = 'qos_overrides.'
 """What the names of parameters begin with that override the quality of service of a topic"""
@@ -50,23 +50,18 @@ def unknown_names(names: Iterable[str]) -> list[str]:
     return [name for name in left if not (name in of_others or name.startswith(CABLES))]
 
 
-def said_of_unknown(names: Iterable[str], of_arm: bool = False) -> list[str]:
+def said_of_unknown(names: Iterable[str], known: Iterable[str]) -> list[str]:
     """Say of each name that nobody takes that it is ignored, or which is probably meant.
 
     Parameters
     ----------
-    of_arm : bool
-        Whether those of an arm's estimator are meant.
+    known : iterable of str
+        Names that the estimator has which is meant.
     """
-    unknown = unknown_names(names)
-    if not unknown:
-        return []
-    from .arm_parameters import ARM_PARAMETERS
-
-    known = sorted({of.name for of in ARM_PARAMETERS} if of_arm else known_names())
+    may_be = sorted(known)
     found = []
-    for name in unknown:
-        close = get_close_matches(name, known, 1, cutoff=0.85)
+    for name in unknown_names(names):
+        close = get_close_matches(name, may_be, 1, cutoff=0.85)
         found.append(
             f'{name} is no parameter of the estimator'
             + (f'; is {close[0]} meant?' if close else ', which ignores it')
@@ -82,9 +77,7 @@ def check_parameters_of_ros(values: Mapping[str, object]) -> None:
     SettingError
         If a value is not allowed; the text names the parameter, its value and what is allowed.
     """
-    for parameter in OF_ROS:
-        if parameter.name in values:
-            parameter.check(values[parameter.name])
+    check_given(OF_ROS, values)
     for name, value in values.items():
         override = _OVERRIDE.fullmatch(name)
         if override is None:

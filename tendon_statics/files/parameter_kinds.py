@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any, TypeGuard
 
 from ..physics.errors import TendonStaticsError
@@ -130,7 +130,8 @@ class NumberParameter(Parameter):
 
         ``ros2 param set`` makes an integer of ``1`` and a text of ``1e-2``.
         """
-        value = number_of_text(value)
+        if isinstance(value, str) and _NUMBER.fullmatch(value):
+            value = int(value) if value.lstrip('+-').isdecimal() else float(value)
         return value if self.is_integer else _as_float(value)
 
     def fixed(self) -> NumberParameter:
@@ -204,14 +205,23 @@ class ListParameter(Parameter):
                 raise SettingError(f'{self.name} has {one!r}, {needed} is needed')
 
 
+def in_their_types(parameters: Iterable[Parameter], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return values by name as a node with these parameters keeps them; others as they are."""
+    by_name = {parameter.name: parameter for parameter in parameters}
+    return {
+        name: by_name[name].converted(value) if name in by_name else value
+        for name, value in values.items()
+    }
+
+
+def check_given(parameters: Iterable[Parameter], values: Mapping[str, object]) -> None:
+    """Raise a `SettingError` for the first of these parameters whose value is not allowed."""
+    for parameter in parameters:
+        if parameter.name in values:
+            parameter.check(values[parameter.name])
+
+
 _NUMBER = re.compile(r'[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?')
-
-
-def number_of_text(value: Any) -> Any:
-    """Return the number that a text is, and anything else as it is."""
-    if isinstance(value, str) and _NUMBER.fullmatch(value):
-        return int(value) if value.lstrip('+-').isdecimal() else float(value)
-    return value
 
 
 def _as_float(value: Any) -> Any:

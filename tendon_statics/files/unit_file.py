@@ -13,7 +13,7 @@ from ..physics.design_uncertainty import DesignUncertainty
 from ..physics.errors import DesignError
 from ..tensions.cable_scale import CableScale
 from .design_file import design_values
-from .estimator_parameters import with_numbers
+from .estimator_parameters import as_kept, known_names
 from .known_parameters import check_parameters_of_ros, said_of_unknown
 from .parameter_file import node_parameters, only_for, read_parameters
 from .parameter_form import ParameterFileError
@@ -27,7 +27,7 @@ class Unit:
 
     settings: Settings
     parameters: Mapping[str, Any] = dataclasses.field(default_factory=dict)
-    """All that the file gives the estimator, by dotted name, as it stands there"""
+    """All that the file gives the estimator, by dotted name, as the node keeps it"""
     addressed: str = ''
     """That the file is for estimators in other places than a plain one alone, if it is"""
 
@@ -63,7 +63,7 @@ class Unit:
     @property
     def unknown(self) -> list[str]:
         """What of the parameters nobody takes, and which may be meant, a sentence each."""
-        return said_of_unknown(self.parameters)
+        return said_of_unknown(self.parameters, known_names())
 
 
 def load_unit(path: str | Path, node: str = '') -> Unit:
@@ -83,7 +83,7 @@ def load_unit(path: str | Path, node: str = '') -> Unit:
     path = Path(path)
     try:
         content = read_parameters(path)
-        parameters = with_numbers(node_parameters(content, node))
+        parameters = as_kept(node_parameters(content, node))
         design = design_values(parameters)
         if not design:
             raise DesignError(

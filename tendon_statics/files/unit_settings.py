@@ -19,7 +19,7 @@ from .estimator_parameters import (
     VECTORS,
 )
 from .measuring_values import cable_scale, check_directions, measuring_in, numbers_in
-from .parameter_kinds import MisfitError, SettingError
+from .parameter_kinds import MisfitError, SettingError, check_given
 
 
 def check_parameters(values: Mapping[str, object]) -> None:
@@ -30,9 +30,7 @@ def check_parameters(values: Mapping[str, object]) -> None:
     SettingError
         If a value is not allowed; the text names the parameter, its value and what is allowed.
     """
-    for parameter in ESTIMATOR_PARAMETERS:
-        if parameter.name in values:
-            parameter.check(values[parameter.name])
+    check_given(ESTIMATOR_PARAMETERS, values)
     for field in design_fields():
         if DESIGN + field.name in values:
             try:

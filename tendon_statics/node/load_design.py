@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from rclpy.parameter import Parameter
 
 from ..files.design_file import design_values
-from ..files.estimator_parameters import DESIGN, ESTIMATOR_PARAMETERS, LISTS
+from ..files.estimator_parameters import DESIGN, ESTIMATOR_PARAMETERS, LISTS, as_kept
 from ..files.known_parameters import check_parameters_of_ros
 from ..files.parameter_file import (
     node_parameters,
@@ -35,7 +35,7 @@ def load_design(
     """Set all that a file, or its text, gives the node; refuse all if any of it is not valid."""
     try:
         content = _content(request.file, request.text)
-        parameters = node_parameters(content, node.get_fully_qualified_name())
+        parameters = as_kept(node_parameters(content, node.get_fully_qualified_name()))
         check_parameters_of_ros(parameters)
         values = _whole(parameters)
     except (ParameterFileError, SettingError, DesignError) as error:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.arm_parameters import ARM_PARAMETERS
 from ..files.known_parameters import said_of_unknown
 from ..physics.calibration.load_cells import AS_MEASURED, LoadCells
 from ..tensions.cable_scale import SLACK_STDDEVS, CableScale, scaled_arrays
@@ -65,7 +66,7 @@ def of_arm(
     applies, tensions, faults = _in_newtons(recording, [*scales.values()])
     limited = any(f'{name}.max_tension' in given for name in scales)
     said = [
-        *said_of_unknown(given, of_arm=True),
+        *said_of_unknown(given, (of.name for of in ARM_PARAMETERS)),
         *_said(scales, settings.plausibility, recording, applies, 'parameter', limited=limited),
         _slack_said(scales, settings.tension_stddev, given),
     ]

@@ -75,18 +75,13 @@ def of_angles(
             f'{100.0 * len(beyond) / len(angles):.3g} % of the measured angles{of} lie beyond the '
             f'stop, {stop:.4g} rad, in the middle by {np.median(beyond) / stop:.3g} times'
         )
+        other = 'the design may have too small a max_bend_angle, or the angles a wrong zero'
         if name in marked:
-            yield (
-                f'{text}: {_SAID}, the design may have too small a max_bend_angle, or the angles '
-                'a wrong zero'
-            )
+            yield f'{text}: {_SAID}, {other}'
         elif np.median(beyond) > 2.0 * stop:
             yield f'{text}: {_unit_of_angles(name, np.median(beyond) / stop)}'
         else:
-            yield (
-                f'{text}: the design may have too small a max_bend_angle, or the angles a wrong '
-                'zero'
-            )
+            yield f'{text}: {other}'
 
 
 def _unit_of_angles(name: str, times: float) -> str:

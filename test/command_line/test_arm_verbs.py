@@ -311,7 +311,7 @@ def test_the_parameter_file_of_the_node_says_how_cables_are_measured(tmp_path):
     parameters.write_text(
         'arm_estimator:\n  ros__parameters:\n    initial_bend_angles: [0.1, 0.0, 0.0, 0.0, 0.0]\n'
         '    cables:\n'
-        + ''.join(f'      {name}: {{gain: 0.01, max_tension: 9.0}}\n' for name in ARM.cable_names)
+        + ''.join(f'      {name}: {{gain: "1e-2", max_tension: 9}}\n' for name in ARM.cable_names)
     )
     first, second = rows_of(run('arm', 'track', FILE, table, '--parameters', parameters))
     state = ArmTracker(ARM, [0.1, 0, 0, 0, 0]).update(

@@ -354,3 +354,17 @@ def test_what_it_cannot_play_is_one_line_and_exit_code_1(argument, named):
         (line,) = program.output().splitlines()
         assert line.startswith('pulley_driver cannot start: ')
         assert named in line
+
+
+@pytest.mark.parametrize(
+    ('more', 'titles'),
+    [((), 'tension_l, tension_s'), ((f'arm_file:={ARM_FILE}',), ', '.join(ARM_CABLES))],
+)
+def test_where_an_error_names_options_it_says_what_a_driver_needs(tmp_path, more, titles):
+    path = tmp_path / 'run.csv'
+    path.write_text('time,Fz1,Fz2\n0,1,1.5\n')
+    with driver(f'file:={path}', *more) as program:
+        assert program.wait() == 1
+        (line,) = program.output().splitlines()
+        assert 'has no such options' in line
+        assert f'a table with the columns {titles} in N' in line

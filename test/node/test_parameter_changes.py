@@ -1,6 +1,7 @@
 """Changes of parameters while the node runs: one by one, together, and as a file."""
 
 import dataclasses
+import re
 
 import pytest
 from designs import PRELIMINARY
@@ -156,6 +157,17 @@ def test_load_design_takes_a_file_or_its_text_as_a_whole(tmp_path, running):
         assert again.message.startswith('nothing in it differs from before')
         assert running.load_design(file=str(default_design_path())).success
         assert in_force(running, PRELIMINARY)
+
+
+def test_load_design_takes_the_text_of_a_number_as_the_start_does(tmp_path, running):
+    path = tmp_path / 'unit.yaml'
+    save_design(path, OTHER, parameters={'tension_stddev': '2e-2'})
+    path.write_text(re.sub(r'(friction_coefficient|mass): (\S+)', r'\1: "\2"', path.read_text()))
+    answer = running.load_design(file=str(path))
+    assert answer.success, answer.message
+    assert in_force(running, OTHER)
+    assert running.estimator_parameter('tension_stddev') == 0.02
+    assert running.load_design(file=str(default_design_path())).success
 
 
 @pytest.mark.parametrize(

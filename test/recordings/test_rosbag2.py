@@ -188,7 +188,9 @@ def test_a_type_of_another_version_is_left_to_the_definition_in_the_bag(both, la
         load_recording(later_version)
 
 
-def test_a_rosbag2_that_was_made_for_another_python_is_no_hindrance(monkeypatch):
+def test_a_rosbag2_that_was_made_for_another_python_is_no_hindrance(tmp_path, monkeypatch):
     expected = read(SESSION)
-    monkeypatch.setitem(sys.modules, 'rosbag2_py', None)  # as if its import failed
+    (tmp_path / 'rosbag2_py.py').write_text("raise ImportError('made for another Python')\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, 'rosbag2_py', raising=False)
     assert read(SESSION) == expected

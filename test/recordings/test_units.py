@@ -1,19 +1,21 @@
-"""`Quantities.parse`: titles meant for a quantity are read or refused, never overlooked."""
+"""`Quantities`: titles meant for a quantity are read or refused, never overlooked."""
 
 import numpy as np
 import pytest
 from designs import PRELIMINARY
 
 from tendon_statics import Arm, ArmUnit, Cable, Recording, RecordingError
-from tendon_statics.recordings.reading.units import OF_UNIT, of_arm
+from tendon_statics.recordings.reading.units import OF_UNIT, of_arm, split_title
 from tendon_statics.recordings.replay.estimates import replay
 
 
 @pytest.mark.parametrize('quantity', [*filter(OF_UNIT.has_units, OF_UNIT.kinds)])
 def test_a_quantity_is_read_with_each_of_its_units(quantity):
-    assert OF_UNIT.parse(f' {quantity} ') == (quantity, 1.0)
+    OF_UNIT.check_title(f' {quantity} ')
     for unit, factor in OF_UNIT.kinds[quantity].units.items():
-        assert OF_UNIT.parse(f'{quantity} [{unit}]') == (quantity, factor)
+        OF_UNIT.check_title(f'{quantity} [{unit}]')
+        assert split_title(f'{quantity} [{unit}]') == (quantity, unit)
+        assert OF_UNIT.factor(quantity, unit) == factor
 
 
 @pytest.mark.parametrize(
@@ -36,7 +38,7 @@ def test_a_quantity_is_read_with_each_of_its_units(quantity):
 )
 def test_what_would_be_overlooked_is_refused_with_the_way_to_write_it(title, hint):
     with pytest.raises(RecordingError, match=f'overlooked: write .*{hint}'):
-        OF_UNIT.parse(title)
+        OF_UNIT.check_title(title)
 
 
 @pytest.mark.parametrize(
@@ -44,14 +46,14 @@ def test_what_would_be_overlooked_is_refused_with_the_way_to_write_it(title, hin
     ['timestamp', 'timestamp_note', 'time_of_day', 'tension_left', 'pressure_sensor', 'state'],
 )
 def test_what_is_something_else_is_left_alone(title):
-    assert OF_UNIT.parse(title) == (title, 1.0)
+    OF_UNIT.check_title(title)
 
 
 def test_the_columns_of_a_replay_are_read_as_what_they_are():
     ones = np.ones(2)
     recording = Recording(ones, ones, ones, ones, ['held', 'held'], time=ones)
     for title in replay(PRELIMINARY, recording).columns():
-        assert OF_UNIT.parse(title) == (title, 1.0)
+        OF_UNIT.check_title(title)
 
 
 def arm_of(*cables):
@@ -62,13 +64,13 @@ def arm_of(*cables):
 
 def test_cables_of_an_arm_are_read_by_their_names_and_not_overlooked():
     arm = of_arm(arm_of('l_mid', 's_mid', 'l1', 's1'))
-    assert arm.parse('l_mid [mN]') == ('l_mid', 1e-3)
-    assert arm.parse('bend_angle_2 [mrad]') == ('bend_angle_2', 1e-3)
-    assert arm.parse('l1 raw') == ('l1 raw', 1.0)
-    assert arm.parse('pressure [bar]') == ('pressure', 1.0)
+    assert arm.factor('l_mid', 'mN') == 1e-3
+    assert arm.factor('bend_angle_2', 'mrad') == 1e-3
+    for title in ('l_mid [mN]', 'l1 raw', 'pressure [bar]'):
+        arm.check_title(title)
     for title, hint in (('L Mid (mN)', r'l_mid \[mN\]'), ('l1 in N', 'l1 or'), ('L1', 'l1 or')):
         with pytest.raises(RecordingError, match=f'overlooked: write .*{hint}'):
-            arm.parse(title)
+            arm.check_title(title)
     with pytest.raises(RecordingError, match='a cable of the arm is called time'):
         of_arm(arm_of('time', 's'))
 
@@ -82,4 +84,5 @@ def test_cables_of_an_arm_are_read_by_their_names_and_not_overlooked():
     ],
 )
 def test_a_unit_may_be_written_out(title, factor):
-    assert OF_UNIT.parse(title) == (title.partition(' ')[0], pytest.approx(factor))
+    name, unit = split_title(title)
+    assert OF_UNIT.factor(name, unit) == pytest.approx(factor)

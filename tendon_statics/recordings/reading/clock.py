@@ -78,27 +78,18 @@ class Stamped(NamedTuple):
         if negative:
             found.append(f'{negative} of {count} stamps on {topic} are before 1970')
         for name, stream in self.by_stream(topic):
-            count = len(stream.stamps)
-            repeated = int((np.diff(stream.stamps) == 0).sum())
-            if repeated > MOST_REPEATED * count and not without:
-                found.append(
-                    f'{repeated} of {count} stamps on {name} are that of the message before'
-                )
+            if stream._repeated > MOST_REPEATED * len(stream.stamps) and not without:
+                found.append(stream._repeated_text(name))
             if not stream._come_late:
                 found += stream.steps_back(name)
         return found
 
     def repeated(self, topic: str) -> list[str]:
         """Say which of sound stamps are no later than the one before, so that the first counts."""
-        counts = (
-            (name, int((np.diff(stream.stamps) == 0).sum()), len(stream.stamps))
-            for name, stream in self.by_stream(topic)
-        )
         return [
-            f'{repeated} of {count} stamps on {name} are that of the message before, which counts '
-            '(--clock log takes all)'
-            for name, repeated, count in counts
-            if repeated
+            f'{stream._repeated_text(name)}, which counts (--clock log takes all)'
+            for name, stream in self.by_stream(topic)
+            if stream._repeated
         ]
 
     def come_late(self, topic: str) -> list[str]:
@@ -133,6 +124,17 @@ class Stamped(NamedTuple):
             f'{_seconds(self.stamps[back[0]])} s at message {back[0] + 1} of {len(self.stamps)}'
             f'{more}'
         ]
+
+    @property
+    def _repeated(self) -> int:
+        """How many stamps are that of the message before."""
+        return int((np.diff(self.stamps) == 0).sum())
+
+    def _repeated_text(self, name: str) -> str:
+        return (
+            f'{self._repeated} of {len(self.stamps)} stamps on {name} are that of the message '
+            'before'
+        )
 
     @property
     def _come_late(self) -> bool:

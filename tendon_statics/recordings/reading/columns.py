@@ -72,8 +72,7 @@ def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> 
         if place in named or split_title(title)[0] in options.columns:
             continue
         name, unit = split_title(title)
-        if not quantities.has_units(name):
-            name, _ = quantities.parse(title)
+        quantities.check_title(title)
         if name not in quantities.kinds or name in options.columns:
             continue
         if name in by_itself:

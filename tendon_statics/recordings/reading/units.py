@@ -72,21 +72,18 @@ class Quantities:
     together: Mapping[str, tuple[str, ...]]
     """Name for several quantities of one unit"""
 
-    def parse(self, title: str) -> tuple[str, float]:
-        """Split a column's title, ``tension_l`` or ``tension_l [mN]``, into name and SI factor.
-
-        A column of something else has the factor 1.
+    def check_title(self, title: str) -> None:
+        """Check that a column's title would not be overlooked.
 
         Raises
         ------
         RecordingError
-            If the unit is not one of that quantity, or the title is meant for a quantity but
-            written otherwise, so that it would be overlooked.
+            If it is meant for a quantity, but written otherwise.
         """
         title = title.strip()
-        name, unit = split_title(title)
+        name, _ = split_title(title)
         if self.has_units(name):
-            return name, 1.0 if unit is None else self.factor(name, unit)
+            return
         for quantity, pattern in self._miswritten.items():
             if name != quantity and pattern.fullmatch(title):
                 of_unit = f' --units {quantity}=UNIT' if self.has_units(quantity) else ''
@@ -95,7 +92,6 @@ class Quantities:
                     f'{self._as_to_write(quantity, title)}, or say --columns '
                     f'{quantity}="{title}"{of_unit}; what is something else needs another name'
                 )
-        return name, 1.0
 
     def has_units(self, name: str) -> bool:
         """Whether it is a quantity whose numbers are in some unit."""
