@@ -16,6 +16,14 @@ from tendon_statics import default_design_path, load_design
 
 EXAMPLES = ROOT / 'examples'
 
+CARELESS = """
+import rclpy
+rclpy.init()
+node = rclpy.create_node('careless')
+timer = node.create_timer(0.0, lambda: (timer.cancel(), print('spins')))
+rclpy.spin(node)
+"""
+
 TIME_LIMIT = 300.0
 """s; more than ten times what one takes"""
 
@@ -111,3 +119,10 @@ def test_the_client_says_that_no_estimator_is_running():
     with example('service_client.py') as client:
         wait_for('that', lambda: 'no estimator is running: start one' in client.output())
         assert_ends_by_ctrl_c(client)
+
+
+def test_a_script_that_does_not_expect_ctrl_c_does_not_pass_for_one_that_does():
+    with Program.running_command([sys.executable, '-u', '-c', CARELESS]) as careless:
+        wait_for('that it spins', lambda: 'spins' in careless.output())
+        with pytest.raises(AssertionError):
+            assert_ends_by_ctrl_c(careless)
