@@ -18,7 +18,7 @@ sources := package.xml setup.py setup.cfg colcon.pkg colcon_defaults.yaml \
 .PHONY: help
 help: ## List the targets
 	@echo 'Targets (PYTHON=/path/to/python3 chooses the Python of the set-up; ROS_DISTRO=kilted Kilted):'
-	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 20
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 28
 
 .PHONY: setup
 setup: $(made)install/.complete ## Install ROS 2 into .venv/ (or use apt's) and build into install/
@@ -27,8 +27,8 @@ setup: $(made)install/.complete ## Install ROS 2 into .venv/ (or use apt's) and 
 demo: setup ## Drive the estimator node over real ROS 2 and print what it publishes (VIEW=1: and show it live; ARM=1: an arm)
 	@$(run) python tools/$(if $(ARM),demo_arm.py,demo.py)$(if $(VIEW), && python tools/demo_view.py $(if $(ARM),--arm))
 
-# Byte code is kept whatever the shell says, else each worker and each program that a test starts
-# compiles everything again.
+# Byte code is kept whatever the shell says, else each worker compiles all tests again, and each
+# program that a test starts the tools.
 .PHONY: test
 test: setup ## Run all tests (ARGS='-m node' chooses; with CI=1 more examples of each property)
 	@$(run) PYTHONDONTWRITEBYTECODE= pytest $(ARGS)

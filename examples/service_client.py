@@ -69,9 +69,8 @@ def main():
         executor.add_node(Controller())
         executor.spin()
     except (KeyboardInterrupt, ExternalShutdownException):
-        pass
+        pass  # Ctrl-C: rclpy shuts down by itself, and a callback that waits stops waiting
     finally:
-        rclpy.try_shutdown()  # first, so that a callback that waits stops waiting
         executor.shutdown()
 
 

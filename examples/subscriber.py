@@ -5,6 +5,7 @@ Beside a running estimator (``estimator``, or ``ros2 run tendon_statics estimato
     python examples/subscriber.py
 """
 
+from contextlib import suppress
 from math import degrees, isnan
 
 import rclpy
@@ -49,12 +50,9 @@ class Subscriber(Node):
 def main():
     """Run until Ctrl-C."""
     rclpy.init()
-    try:
+    # At Ctrl-C rclpy shuts down by itself.
+    with suppress(KeyboardInterrupt, ExternalShutdownException):
         rclpy.spin(Subscriber())
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
-    finally:
-        rclpy.try_shutdown()
 
 
 if __name__ == '__main__':

@@ -129,6 +129,16 @@ def test_the_page_names_every_file_of_the_physics():
     assert named == there
 
 
+def test_the_page_names_every_file_of_the_arm():
+    text = (ROOT / 'docs/architecture.md').read_text(encoding='utf-8')
+    table = text[text.index('| file of `physics/arm` |') : text.index('A formula is written once')]
+    folder = PACKAGE / 'physics/arm'
+    there = {path.stem for path in folder.glob('*.py')} - {'__init__'}
+    there |= {f'{path.parent.name}/' for path in folder.glob('*/__init__.py')}
+    rows = [row.split('|')[1] for row in table.splitlines()[2:] if row]
+    assert sorted(name for row in rows for name in row.strip().split(', ')) == sorted(there)
+
+
 def test_who_only_solves_does_not_wait_for_numpy():
     """Its import takes as long as all the rest, also with the file of a design."""
     code = (

@@ -3,8 +3,9 @@
 import re
 
 import pytest
+from ctrl_c import assert_ends_by_ctrl_c
 from make_docs import ROOT, TUTORIALS
-from ros_programs import Program, assert_ends_by_ctrl_c, wait_for
+from ros_programs import Program, wait_for
 from run_page import run_page
 
 PYTHON = re.compile(r'^```python\n(.*?)^```$', re.MULTILINE | re.DOTALL)

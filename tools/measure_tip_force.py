@@ -47,6 +47,8 @@ class Job(NamedTuple):
     draws: int
     kinds: tuple[str, ...]
     """Of `KINDS`"""
+    noise: float
+    """As a share of all deviations below"""
 
 
 class Truth(NamedTuple):
@@ -104,13 +106,18 @@ def counts(job: Job) -> dict[tuple[bool, str], tuple[int, int]]:
     found: dict[tuple[bool, str], tuple[int, int]] = {}
     for is_exact in (True, False):
         for kind in job.kinds:
-            results = [covered(truth, kind, draw, is_exact=is_exact) for _ in range(job.draws)]
+            results = [
+                covered(truth, kind, draw, is_exact=is_exact, noise=job.noise)
+                for _ in range(job.draws)
+            ]
             known = [result for result in results if result is not None]
             found[is_exact, kind] = len(known), sum(known)
     return found
 
 
-def covered(truth: Truth, kind: str, draw: random.Random, *, is_exact: bool) -> bool | None:
+def covered(
+    truth: Truth, kind: str, draw: random.Random, *, is_exact: bool, noise: float = 1.0
+) -> bool | None:
     """Draw a true force and measurements of it; say whether the interval holds the force."""
     found = draw.choice(truth.intervals)
     ends = [end for end in found if math.isfinite(end)]
@@ -129,24 +136,24 @@ def covered(truth: Truth, kind: str, draw: random.Random, *, is_exact: bool) -> 
         if min(abs(towards_s), abs(towards_l)) > 1e-6 * scale:
             return None  # an end where the seat is lost
         slipping = 's' if abs(towards_s) < abs(towards_l) else 'l'
-    answer = measured(truth, draw, slipping=slipping, is_exact=is_exact)
+    answer = measured(truth, draw, slipping=slipping, is_exact=is_exact, noise=noise)
     if answer is None:
         return None
     return any(low <= force <= high for low, high in answer.intervals)
 
 
 def measured(
-    truth: Truth, draw: random.Random, *, slipping: str, is_exact: bool
+    truth: Truth, draw: random.Random, *, slipping: str, is_exact: bool, noise: float
 ) -> TipForce | None:
     """Return what is said of noisy measurements; None where they have no meaning."""
     case, angle, direction, distance, _ = truth
-    stddev = TENSION_SHARE * sum(case[2:4])
+    stddev, angle_stddev = noise * TENSION_SHARE * sum(case[2:4]), noise * ANGLE_STDDEV
     pair = [tension + draw.gauss(0.0, stddev) for tension in case[2:4]]
     if min(pair) <= 0.0:
         return None
     design, uncertainty = case.design, None
     if not is_exact:
-        shares = DESIGN_SHARES
+        shares = {name: noise * share for name, share in DESIGN_SHARES.items()}
         believed = {
             name: getattr(design, name) * (1.0 + draw.gauss(0.0, share))
             for name, share in shares.items()
@@ -159,12 +166,12 @@ def measured(
     stop = design.max_bend_angle
     return tip_force(
         *(design, *pair),
-        bend_angle=min(max(angle + draw.gauss(0.0, ANGLE_STDDEV), -stop), stop),
+        bend_angle=min(max(angle + draw.gauss(0.0, angle_stddev), -stop), stop),
         direction=tuple(direction.tolist()),
         distance=distance,
         load=case.load,
         tension_stddev=stddev,
-        bend_angle_stddev=ANGLE_STDDEV,
+        bend_angle_stddev=angle_stddev,
         design_covariance=uncertainty,
         slipping=slipping,
     )
@@ -178,11 +185,12 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument('--seed', type=int, default=0, help='of the first unit')
     parser.add_argument('--laws', nargs='+', choices=LAWS, default=LAWS, help='default: all')
     parser.add_argument('--kinds', nargs='+', choices=KINDS, default=tuple(KINDS), help='likewise')
+    parser.add_argument('--noise', type=float, default=1.0, help='as a share of the usual')
     parser.add_argument('--workers', type=int, default=len(os.sched_getaffinity(0)))
     options = parser.parse_args(arguments)
     seeds = range(options.seed, options.seed + options.units)
     laws, kinds = options.laws, tuple(options.kinds)
-    jobs = [Job(law, seed, options.draws, kinds) for law in laws for seed in seeds]
+    jobs = [Job(law, seed, options.draws, kinds, options.noise) for law in laws for seed in seeds]
     results = list(synthetic_units.run_all(counts, jobs, options.workers))
     print(
         f'{options.units} units of each law from seed {options.seed}, {options.draws} draws of '
