@@ -14,7 +14,7 @@ from .design import JointDesign
 from .errors import BendAngleError
 from .load import UPRIGHT, Load
 from .roots import refine
-from .slip import Slip
+from .slip import Probe, Slip
 from .tensions import check_tensions, taut_slip
 
 Interval = tuple[float, float]
@@ -107,12 +107,13 @@ def angles_held(slip: Slip, stop: float) -> list[Interval]:
 def _angles_below_limit(slip: Slip, stop: float) -> list[Interval]:
     """Angles ahead with g ≤ 0, where the unit does not slip to the side of the function."""
     # Cut at 0, as `solve` searches, so that its root is the same to the last bit.
-    ends = slip.probe(-stop), slip.probe(0.0), slip.probe(stop)
-    halves = [bracket for low, high in pairwise(ends) for bracket in slip.brackets(low, high)]
-    roots = list(dict.fromkeys(refine(slip, bracket)[0][0] for bracket in halves))
+    first, last = slip.probe(-stop), slip.probe(stop)
+    halves = pairwise((first, slip.probe(0.0), last))
+    brackets = [bracket for low, high in halves for bracket in slip.brackets(low, high)]
+    roots = list(dict.fromkeys(refine(slip, bracket)[0][0] for bracket in brackets))
     found: list[Interval] = []
     for low, high in pairwise([-stop, *roots, stop]):
-        if low < high and slip.value(0.5 * (low + high)) <= 0.0:
+        if low < high and _value_between(slip, low, high, first, last) <= 0.0:
             if found and found[-1][1] == low:
                 # g changes sign at a root, so one side is below zero by rounding: the narrow one.
                 if high - low <= low - found[-1][0]:
@@ -124,8 +125,17 @@ def _angles_below_limit(slip: Slip, stop: float) -> list[Interval]:
         if not any(low <= root <= high for low, high in found):
             found.append((root, root))
     # So is a stop that is at the limit but for rounding.
-    for end in (-stop, stop):
-        at_limit = slip.margin(end) == 1.0
-        if at_limit and not any(low <= end <= high for low, high in found):
+    for probe in (first, last):
+        end = probe[0]
+        if slip.is_at_limit(probe) and not any(low <= end <= high for low, high in found):
             found.append((end, end))
     return sorted(found)
+
+
+def _value_between(slip: Slip, low: float, high: float, first: Probe, last: Probe) -> float:
+    """Return g at an angle between two neighbours of its roots and the stops, probed there."""
+    for probe in (first, last):
+        # g keeps its sign up to the root nearest to a stop.
+        if probe[0] in (low, high) and probe[1]:
+            return probe[1]  # type: ignore[no-any-return]
+    return slip.value(0.5 * (low + high))  # type: ignore[no-any-return]

@@ -19,4 +19,12 @@ def _sine(angle: Any) -> Any:
     return math.sin(angle) if isinstance(angle, float) else np.sin(angle)
 
 
-ARRAYS = Numbers(np.sqrt, _cosine, _sine, np.where, np.minimum, np.maximum, np.any)
+def _ordered(one: Any, other: Any) -> tuple[Any, Any]:
+    return np.minimum(one, other), np.maximum(one, other)
+
+
+def _swapped(condition: Any, one: Any, other: Any) -> tuple[Any, Any]:
+    return np.where(condition, other, one), np.where(condition, one, other)
+
+
+ARRAYS = Numbers(np.sqrt, _cosine, _sine, np.where, _ordered, _swapped, np.any)

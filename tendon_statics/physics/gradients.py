@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+from math import hypot, isfinite
 from typing import Any, NamedTuple
 
 from .contact.law import NormalSlopes
@@ -29,7 +29,7 @@ class TensionGradient(NamedTuple):
         tension_stddev : float
             Standard deviation of each tension in N, the two independent.
         """
-        return tension_stddev * math.hypot(self.tension_l, self.tension_s)
+        return tension_stddev * hypot(self.tension_l, self.tension_s)
 
 
 def stddev_of(gradient: TensionGradient | None, tension_stddev: float) -> float | None:
@@ -40,7 +40,7 @@ def stddev_of(gradient: TensionGradient | None, tension_stddev: float) -> float 
 def finite(gradient: TensionGradient) -> TensionGradient | None:
     """Return a gradient if it is one of finite numbers, else None."""
     by_l, by_s = gradient
-    return gradient if math.isfinite(by_l) and math.isfinite(by_s) else None
+    return gradient if isfinite(by_l) and isfinite(by_s) else None
 
 
 ByCable = tuple[Any, Any]
@@ -133,7 +133,5 @@ def normal_by_tensions(
 def of_sides(slip: Slip, by_cable: ByCable, sign: Any = 1.0) -> TensionGradient:
     """Derivatives by T_l and T_s; `sign` turns what is counted ahead into what is towards s."""
     behind, ahead = by_cable
-    towards_s, choose = slip.side > 0.0, slip.numbers.choose
-    return TensionGradient(
-        sign * choose(towards_s, behind, ahead), sign * choose(towards_s, ahead, behind)
-    )
+    by_l, by_s = slip.numbers.swapped(slip.side < 0.0, behind, ahead)
+    return TensionGradient(sign * by_l, sign * by_s)

@@ -248,9 +248,18 @@ class Slip:
 
     def margin_at(self, probe: Probe) -> float:
         """M / K where it was probed, for M towards the side of slip; positive towards cable s."""
-        share = probe[5] / probe[8][0]
-        margin: float = self.side * (1.0 if 1.0 < share <= 1.0 + ROUNDING else share)
+        margin: float = self.side * self._used(probe)
         return margin
+
+    def is_at_limit(self, probe: Probe) -> bool:
+        """Whether M is K, but for rounding, where it was probed."""
+        return self._used(probe) == 1.0
+
+    @staticmethod
+    def _used(probe: Probe) -> float:
+        """Return the share of K that M takes up ahead, negative where M is."""
+        share: float = probe[5] / probe[8][0]
+        return 1.0 if 1.0 < share <= 1.0 + ROUNDING else share
 
     def residual_at(self, probe: Probe) -> float:
         """(M − K) / (μ r) in N where it was probed; with the paper's law N_m − N_f, Eq. (4)."""

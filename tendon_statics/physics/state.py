@@ -175,12 +175,16 @@ class Equilibrium(StateBasis):
 
     def as_dict(self) -> dict[str, Any]:
         """Return all but design and load by name, ready for JSON: nested as dicts."""
-        # Its own fields are unpacked rather than asked for one by one: that saves a tenth.
+        # What is there already is taken rather than asked for one by one: that saves a tenth.
         design, _, regime, tension_l, tension_s, angle, root_count, iterations, assured, _ = self
+        margin = residual = consistent = None
         normal_force = forces = remainder = pressure_by_tension = None
-        consistent = self.branch_consistent
-        if consistent or (angle is not None and not self.is_tracked):
-            normal_force, forces, remainder, _, pressure_by_tension = self._details
+        if angle is not None:
+            slip, probe = self._slip_and_probe
+            margin, residual = slip.margin_at(probe), slip.residual_at(probe)
+            consistent = self.branch_consistent
+            if consistent or root_count is not None:
+                normal_force, forces, remainder, _, pressure_by_tension = self._details
         by_tension = self.bend_angle_gradient
         return {
             'regime': regime.value,
@@ -188,13 +192,13 @@ class Equilibrium(StateBasis):
             'tension_s': tension_s,
             'bend_angle': angle,
             'angle_assured': assured,
-            'slip_margin': self.slip_margin,
+            'slip_margin': margin,
             'pressure': normal_force and normal_force / design.contact_area,
             'normal_force': normal_force,
             'root_count': root_count,
             'iterations': iterations,
             'stable': self.stable,
-            'residual': self.residual,
+            'residual': residual,
             'forces': forces and forces.as_dict(),
             'force_remainder': remainder and remainder.as_dict(),
             'branch_consistent': consistent,

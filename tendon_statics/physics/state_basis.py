@@ -82,10 +82,7 @@ class StateBasis(StateFields):
     @kept
     def _details(self) -> StateDetails:
         """Contact force and gradients, all at once."""
-        return state_details(
-            *self._slip_and_probe,
-            self._friction,
-            self.design,
-            at_root=self.regime is Regime.EQUILIBRIUM,
-            at_limit=self._is_at_limit,
-        )
+        slip, probe = self._slip_and_probe
+        at_root = self.regime is Regime.EQUILIBRIUM
+        at_limit = self._is_at_limit
+        return state_details(slip, probe, self._friction, self.design, at_root, at_limit)

@@ -31,7 +31,6 @@ def state_details(
     probe: Probe,
     friction: float,
     design: JointDesign,
-    *,
     at_root: bool,
     at_limit: bool,
 ) -> StateDetails:

@@ -114,13 +114,13 @@ class LoadedElasticSeatLaw(LoadedLaw):
         low, high = self._circle.slope_bounds(tuple(circle), tuple(other_circle), width)
         # By how much the seat holds more at the ends, and how far that can change in between.
         lead, other_lead = seat - circle[0], other_seat - other_circle[0]
-        drift = width * numbers.greatest(abs(greatest - low), abs(high - least))
+        drift = width * numbers.ordered(abs(high - least), abs(greatest - low))[1]
         leads = lead + other_lead > drift
         follows = lead + other_lead < -drift
         choose = numbers.choose
         return (
-            choose(leads, least, choose(follows, low, numbers.least(least, low))),
-            choose(leads, greatest, choose(follows, high, numbers.greatest(greatest, high))),
+            choose(leads, least, choose(follows, low, numbers.ordered(least, low)[0])),
+            choose(leads, greatest, choose(follows, high, numbers.ordered(high, greatest)[1])),
         )
 
     def by_share(self, state: State) -> Any:

@@ -73,13 +73,13 @@ class LoadedFrictionCircleLaw(LoadedLaw):
         _, _, cos_psi, sin_psi, size = one
         _, _, other_cos_psi, other_sin_psi, other_size = other
         # R grows with cos ψ, which comes to 1 or −1 in between where sin ψ changes sign.
-        low, high = numbers.least(size, other_size), numbers.greatest(size, other_size)
+        low, high = numbers.ordered(size, other_size)
         turns = sin_psi * other_sin_psi < 0.0
         if numbers.any(turns):
             side = numbers.choose(cos_psi + other_cos_psi < 0.0, -1.0, 1.0)
             turned = self.at(side * self._cosine, -side * self._sine)[4]
             turned = numbers.choose(turns, turned, size)
-            low, high = numbers.least(low, turned), numbers.greatest(high, turned)
+            low, high = numbers.ordered(low, turned)[0], numbers.ordered(turned, high)[1]
         least, most = wave_bounds(numbers, sin_psi, cos_psi, other_sin_psi, other_cos_psi, 1.0)
         scale = self._ratio * self._share
         return scaled_bounds(numbers, -most, -least, scale / (high + LEAST), scale / (low + LEAST))
