@@ -8,6 +8,7 @@ towards cable l, is above zero.
 from __future__ import annotations
 
 import numbers
+from collections.abc import Sequence
 from itertools import pairwise
 
 from .design import JointDesign
@@ -95,22 +96,34 @@ def check_bend_angle(design: JointDesign, bend_angle: float) -> float:
     return float(bend_angle)
 
 
-def angles_held(slip: Slip, stop: float) -> list[Interval]:
-    """`admissible_angles` of the slip function towards cable s, within ±`stop` in rad."""
-    towards_s = _angles_below_limit(slip, stop)
+def angles_held(
+    slip: Slip, stop: float, roots_ahead: Sequence[float] | None = None
+) -> list[Interval]:
+    """`admissible_angles` of a slip function towards either side, within ±`stop` in rad.
+
+    Parameters
+    ----------
+    roots_ahead : sequence of float, optional
+        All roots of the slip function from 0 to the stop, where they have been found already.
+    """
+    towards_s = _angles_below_limit(slip, stop, roots_ahead)
     towards_l = _angles_below_limit(slip.mirrored(), stop)
+    if slip.side < 0.0:
+        towards_s, towards_l = towards_l, towards_s
     mirrored = [(-high, -low) for low, high in reversed(towards_l)]
     common = [(max(a[0], b[0]), min(a[1], b[1])) for a in towards_s for b in mirrored]
     return [(low, high) for low, high in common if low <= high]
 
 
-def _angles_below_limit(slip: Slip, stop: float) -> list[Interval]:
+def _angles_below_limit(
+    slip: Slip, stop: float, roots_ahead: Sequence[float] | None = None
+) -> list[Interval]:
     """Angles ahead with g ≤ 0, where the unit does not slip to the side of the function."""
     # Cut at 0, as `solve` searches, so that its root is the same to the last bit.
-    first, last = slip.probe(-stop), slip.probe(stop)
-    halves = pairwise((first, slip.probe(0.0), last))
-    brackets = [bracket for low, high in halves for bracket in slip.brackets(low, high)]
-    roots = list(dict.fromkeys(refine(slip, bracket)[0][0] for bracket in brackets))
+    first, middle, last = slip.probe(-stop), slip.probe(0.0), slip.probe(stop)
+    if roots_ahead is None:
+        roots_ahead = _roots_between(slip, middle, last)
+    roots = list(dict.fromkeys((*_roots_between(slip, first, middle), *roots_ahead)))
     found: list[Interval] = []
     for low, high in pairwise([-stop, *roots, stop]):
         if low < high and _value_between(slip, low, high, first, last) <= 0.0:
@@ -130,6 +143,11 @@ def _angles_below_limit(slip: Slip, stop: float) -> list[Interval]:
         if slip.is_at_limit(probe) and not any(low <= end <= high for low, high in found):
             found.append((end, end))
     return sorted(found)
+
+
+def _roots_between(slip: Slip, low: Probe, high: Probe) -> list[float]:
+    """Return all roots of g between two angles ahead that were probed, ascending."""
+    return [refine(slip, bracket)[0][0] for bracket in slip.brackets(low, high)]
 
 
 def _value_between(slip: Slip, low: float, high: float, first: Probe, last: Probe) -> float:

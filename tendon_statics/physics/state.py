@@ -52,9 +52,12 @@ class Equilibrium(StateBasis):
         """
         if self.regime is Regime.SLACK:
             return []
-        slip = self._taut_slip if self.bend_angle is None else self._slip_and_probe[0]
-        towards_s = slip if slip.side > 0.0 else slip.mirrored()
-        return angles_held(towards_s, self.design.max_bend_angle)
+        stop = self.design.max_bend_angle
+        if self.bend_angle is None:
+            return angles_held(self._taut_slip, stop)
+        slip, probe = self._slip_and_probe
+        found_alone = self.root_count == 1 and self.regime is Regime.EQUILIBRIUM
+        return angles_held(slip, stop, [probe[0]] if found_alone else None)
 
     @property
     def residual(self) -> float | None:

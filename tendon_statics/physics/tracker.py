@@ -148,7 +148,7 @@ class StickSlipTracker:
         self._bend_angle = side * stop
         self._gradient = NO_GRADIENT
         if not self._assured:
-            self._assured = not angles_held(slip if slip.side > 0.0 else slip.mirrored(), stop)
+            self._assured = not angles_held(slip, stop)
         return Regime.DRIVEN_TO_STOP
 
     def _slip(self, slip: Slip) -> Regime:

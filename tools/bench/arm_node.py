@@ -30,13 +30,13 @@ from .rows import Row, at_most
 RATE = 1000.0
 """Hz"""
 
-STARTS = 4
+STARTS = 3
 STREAMS, COUNT = 10, 300
 WARM_UP = 300
 
 SLOW_RATE = 50.0
 """Hz, at which a machine bears eleven processes"""
-SLOW_STREAMS, SLOW_COUNT = 6, 100
+SLOW_STREAMS, SLOW_COUNT = 4, 100
 
 NOISE = 0.003
 """N"""

@@ -31,7 +31,7 @@ from .yardstick import Yardstick
 PAIRS = 1_000_000
 LOOPED = 20_000
 """Pairs on which the loop is timed"""
-ROUNDS = 9
+ROUNDS = 6
 MANY = 10_000_000
 TOLERANCE = 1e-9
 REST = 'pressure, and the rest'

@@ -46,7 +46,7 @@ ESTIMATE = Answer('estimate', Estimate, lambda message: message.bend_angle)
 LOAD = 4000
 """Messages at every rate that is tried: several times what the queue of a program holds"""
 
-HALVINGS = 6
+HALVINGS = 5
 TRIALS = 2
 """At a rate, until one loses nothing: what else the machine does may disturb one"""
 

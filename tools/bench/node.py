@@ -27,10 +27,10 @@ from .rows import Row, at_most
 RATE = 500.0
 """Hz"""
 
-STARTS = 6
+STARTS = 4
 """Of every program, since one process is not as fast as the next"""
 
-STREAMS = 25
+STREAMS = 12
 """To every process, of `COUNT` messages each: short, so that all get the same of the machine"""
 
 COUNT = 100

@@ -11,7 +11,7 @@ import threading
 from .rows import Row, at_most
 from .timing import best_times
 
-ROUNDS = 25
+ROUNDS = 15
 LIMIT = 60
 """s that a process may take"""
 
