@@ -15,7 +15,6 @@ regime.
 from __future__ import annotations
 
 import math
-from functools import cached_property
 from statistics import NormalDist
 
 from .design import JointDesign
@@ -23,6 +22,7 @@ from .design_gradients import excess_by_design
 from .design_uncertainty import DesignUncertainty
 from .drawn_slip_angles import DrawnSlipAngles
 from .gradients import slip_by_tensions
+from .kept import kept
 from .load import UPRIGHT, Load
 from .regime import Regime
 from .slip import Slip
@@ -31,8 +31,9 @@ from .tensions import Tensions, check_tensions, taut_slip
 FAR = 5.0
 """Standard deviations that count as never"""
 
-ANGLE_TOLERANCE = 1e-9
-"""rad, of a quantile"""
+LAST_STEP = 1e-6
+"""Step to a quantile in rad after which it is there within some 1e-8 rad: of two errors of the
+secant method the next is a product"""
 
 STEPS = 60
 """To a quantile at the most, should each but halve the range; five or so are taken"""
@@ -75,9 +76,7 @@ def slip_angle_distribution(
     if not 0.0 < tension_stddev < math.inf:
         raise ValueError(f'tension_stddev is {tension_stddev!r} N, which must be above 0')
     tensions = check_tensions(tension_l, tension_s)
-    slip = taut_slip(design, tensions, load)
-    if tension_l > tension_s:
-        slip = slip.mirrored()
+    slip = taut_slip(design, tensions, load, -1.0 if tension_l > tension_s else 1.0)
     return SlipAngleDistribution(design, tensions, load, slip, tension_stddev, design_covariance)
 
 
@@ -104,12 +103,12 @@ class SlipAngleDistribution:
         self._uncertainty = uncertainty
         self._stop = design.max_bend_angle
 
-    @cached_property
+    @kept
     def is_closed_form(self) -> bool:
         """Whether it is worked out in closed form; otherwise from `DRAWS` draws."""
         return self._is_side_sure and self._direction != 0.0
 
-    @cached_property
+    @kept
     def _direction(self) -> float:
         """1 where the slip function rises through the range, −1 where it falls, else 0."""
         if not self._slip.is_determined:
@@ -134,7 +133,7 @@ class SlipAngleDistribution:
         """
         return self.probabilities[Regime(regime)]
 
-    @cached_property
+    @kept
     def probabilities(self) -> dict[Regime, float]:
         """The probability of each regime."""
         if not self.is_closed_form:
@@ -199,7 +198,7 @@ class SlipAngleDistribution:
             nearer = ahead + (score - value) * (ahead - before[0]) / rise if rise else math.nan
             if not low <= nearer <= high:
                 nearer = 0.5 * (low + high)
-            if abs(nearer - ahead) < ANGLE_TOLERANCE:
+            if abs(nearer - ahead) < LAST_STEP:
                 return nearer
             before, ahead = (ahead, value), nearer
         return ahead
@@ -233,12 +232,12 @@ class SlipAngleDistribution:
             return None
         return min(one, other), max(one, other)
 
-    @cached_property
+    @kept
     def _ends(self) -> tuple[float, float]:
         """The score at 0 and at the stop."""
         return self._score(0.0), self._score(self._stop)
 
-    @cached_property
+    @kept
     def _at_ends(self) -> tuple[float, float]:
         """F at 0 and at the stop."""
         at_zero, at_stop = self._ends
@@ -267,7 +266,7 @@ class SlipAngleDistribution:
         slip = taut_slip(design, self._tensions, self._load).facing(self._slip.side)
         return float(slip.value(ahead))
 
-    @cached_property
+    @kept
     def _drawn(self) -> DrawnSlipAngles:
         return DrawnSlipAngles(
             self._design, self._tensions, self._load, self._stddev, self._uncertainty
