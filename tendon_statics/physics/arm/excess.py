@@ -17,6 +17,9 @@ from .carried import Carried
 
 Floats = NDArray[np.float64]
 
+Law = tuple[LoadedLaw, float, float, Tensions]
+"""The contact law of a joint, r T in N m, |P| / T, and the pair of tensions that they are of"""
+
 ULPS = 2e-15
 """Share of what is added up by which a sum may be wrong, some units in the last place"""
 
@@ -51,7 +54,8 @@ class Excess:
         self.levers = [design.cable_lever for design in arm.designs]
         self._pairs = self._pairs_of(at_joints)
         self.rounding = self._rounding()
-        self._laws: dict[tuple[int, float], tuple[Tensions, LoadedLaw, float, float]] = {}
+        self.laws: dict[tuple[int, float], Law] = {}
+        """By joint and side, as they were last"""
 
     def _rounding(self) -> list[float]:
         """What M of each joint may be wrong by in N m, from the size of all that it is made of."""
@@ -90,20 +94,20 @@ class Excess:
     def _pairs_of(self, at_joints: AtJoints) -> list[Tensions]:
         return [pair_at(*both) for both in zip(self._crossing, at_joints, strict=True)]
 
-    def law(self, joint: int, side: float, pair: Tensions) -> tuple[LoadedLaw, float, float]:
-        """Return the contact law of a joint for slipping to a side, r T in N m, and |P| / T."""
-        kept = self._laws.get((joint, side))
-        if kept is None or kept[0] is not pair:
+    def law(self, joint: int, side: float, pair: Tensions) -> Law:
+        """Return the contact law of a joint for slipping to a side."""
+        kept = self.laws.get((joint, side))
+        if kept is None or kept[3] is not pair:
             excess = self.carried.excess(joint, pair)
             slip = Slip(self.carried.upright[joint], excess, *pair, side)
             scale = self.arm.designs[joint].ball_radius * slip.total
-            self._laws[joint, side] = kept = pair, slip.law, scale, slip.share
-        return kept[1:]
+            self.laws[joint, side] = kept = slip.law, scale, slip.share, pair
+        return kept
 
     def by_tensions(self, joint: int, side: float, look: Look) -> list[float]:
         """∂f/∂T in m of one joint by the tension at it of every cable."""
         crossing, design = self._crossing[joint], self.arm.designs[joint]
-        law, _, share = self.law(joint, side, look.pairs[joint])
+        law, _, share, _ = self.law(joint, side, look.pairs[joint])
         turn = look.turns[joint]
         state = law.at(turn.real, side * turn.imag)
         held = side * design.ball_radius * (state[0] - share * law.by_share(state))
@@ -182,7 +186,7 @@ class Look:
         """K in N m for slipping to a side, and side ∂K/∂Θ."""
         known = self._capacities.get((joint, side))
         if known is None:
-            law, scale, _ = self._excess.law(joint, side, self.pairs[joint])
+            law, scale, _, _ = self._excess.law(joint, side, self.pairs[joint])
             turn = self.turns[joint]
             state: tuple[Any, ...] = law.at(turn.real, side * turn.imag)
             known = self._capacities[joint, side] = scale * state[0], scale * state[1]
@@ -209,14 +213,17 @@ class Look:
             The side to which a joint does not move, since it is at its stop; 0 if there is none.
         """
         excess, capacities = self._excess, self._capacities
-        found = []
+        laws, found = excess.laws, []
         parts = zip(leaning, self.moments(), self.turns, self.pairs, strict=True)
         for joint, (stopped, moment, turn, pair) in enumerate(parts):
             side = -1.0 if moment < 0.0 else 1.0
             if side == stopped:
                 found.append(0.0)
                 continue
-            law, scale, _ = excess.law(joint, side, pair)
+            kept = laws.get((joint, side))
+            if kept is None or kept[3] is not pair:
+                kept = excess.law(joint, side, pair)
+            law, scale, _, _ = kept
             state = law.at(turn.real, side * turn.imag)
             capacity = scale * state[0]
             capacities[joint, side] = capacity, scale * state[1]

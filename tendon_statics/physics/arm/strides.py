@@ -90,10 +90,11 @@ def go_strides(motion: Motion, time: float) -> None:
         error = np.where(stopped, 0.0, time * ERROR.dot(velocities))
         aside, along = aside_and_along(error, last)
         share = max(aside / ASIDE, along / ALONG) if far <= 2.0 * FAR else math.inf
+        least = 0.5 * SHORT  # of one that is tried again: what bends sharply is soon behind
         if share <= 1.0:
             motion.set_out_from(look)
-            angles, velocities[0] = end, last
+            angles, velocities[0], least = end, last, SHORT
         longer = min(0.9 * max(share, 1e-6) ** -0.2, MOST_LONGER)
-        if not (motion.moving and far * longer >= SHORT):
+        if not (motion.moving and far * longer >= least):
             return
         time *= max(min(longer, FAR / far), 1.0 / MOST_LONGER)
