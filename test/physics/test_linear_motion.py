@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tendon_statics.physics.arm.linear_motion import LinearMotion
+from tendon_statics.physics.arm.linear_motion import END, PARTS, LinearMotion
 
 DEFECTIVE = np.array([[-1.0, 1.0, 0.0], [0.0, -1.0, 1.0], [0.0, 0.0, -1.0]])
 """One eigenvector only"""
@@ -33,35 +33,32 @@ def random_jacobian(seed, size=4):
 
 
 @pytest.mark.parametrize('seed', range(4))
-@pytest.mark.parametrize('time', [1e-3, 0.3, 2.0])
-def test_a_path_is_where_small_steps_lead(seed, time):
+@pytest.mark.parametrize('end', [1e-3, 0.3, 2.0])
+@pytest.mark.parametrize('part', [7, END])
+def test_a_course_with_a_remainder_is_where_small_steps_lead(seed, end, part):
     jacobian, velocity, remainder = random_jacobian(seed)
-    linear = LinearMotion(jacobian, velocity)
-    path = linear.path(np.array([0.0, time]), remainder, 1.5)
-    way, at_end = stepped(jacobian, velocity, remainder, 1.5, time)
+    path = LinearMotion(jacobian, velocity).course(end).bent(remainder)
+    way, at_end = stepped(jacobian, velocity, remainder, end, end * PARTS[part])
+    assert path.times[part] == pytest.approx(end * PARTS[part])
     assert path.ways[:, 0] == pytest.approx(0.0 * way, abs=1e-15)
-    assert path.ways[:, 1] == pytest.approx(way, rel=1e-8, abs=1e-12)
-    assert path.velocities[:, 1] == pytest.approx(at_end, rel=1e-8, abs=1e-12)
-    slope = jacobian @ at_end + 2.0 * time / 1.5**2 * remainder
-    assert path.accelerations[:, 1] == pytest.approx(slope, rel=1e-8)
+    assert path.ways[:, part] == pytest.approx(way, rel=1e-7, abs=1e-12)
+    assert path.velocities[:, part] == pytest.approx(at_end, rel=1e-7, abs=1e-12)
 
 
 @pytest.mark.parametrize('seed', range(4))
-def test_a_bend_is_what_the_path_is_longer_by_at_its_end(seed):
+def test_a_way_between_two_times_of_a_path_is_where_small_steps_lead(seed):
     jacobian, velocity, remainder = random_jacobian(seed)
-    linear = LinearMotion(jacobian, velocity)
-    way, at_end = linear.at(0.7)
-    bend, faster = linear.bend(0.7, remainder)
-    expected, expected_velocity = stepped(jacobian, velocity, remainder, 0.7, 0.7)
-    assert way + bend == pytest.approx(expected, rel=1e-8)
-    assert at_end + faster == pytest.approx(expected_velocity, rel=1e-8)
+    path = LinearMotion(jacobian, velocity).course(0.5).bent(remainder)
+    between = 0.3 * path.times[7] + 0.7 * path.times[8]
+    way, _ = stepped(jacobian, velocity, remainder, 0.5, between)
+    assert path.way(between, 8) == pytest.approx(way, abs=1e-6)
 
 
 @pytest.mark.parametrize('seed', range(4))
 def test_it_is_far_when_it_has_gone_that_way(seed):
     jacobian, velocity, _ = random_jacobian(seed)
     linear = LinearMotion(jacobian, velocity)
-    way, _ = linear.at(linear.far(0.3))
+    way = linear.course(linear.far(0.3)).way
     assert abs(way).max() == pytest.approx(0.3, rel=0.1)
 
 
@@ -73,16 +70,16 @@ def test_what_dies_away_before_is_never_far():
 
 def test_what_neither_grows_nor_dies_away_goes_on_evenly():
     linear = LinearMotion(np.zeros((3, 3)), np.array([1.0, 1.0, -2.0]))
-    way, velocity = linear.at(0.25)
-    assert way == pytest.approx([0.25, 0.25, -0.5], rel=1e-12)
-    assert velocity == pytest.approx([1.0, 1.0, -2.0], rel=1e-12)
+    course = linear.course(0.25)
+    assert course.way == pytest.approx([0.25, 0.25, -0.5], rel=1e-12)
+    assert course.velocity == pytest.approx([1.0, 1.0, -2.0], rel=1e-12)
     times = linear.times(1e9, 1.2)
     assert times[0] < 0.1 < times[-1] < np.inf
 
 
 def test_a_jacobian_with_too_few_eigenvectors_is_nearly_followed():
     velocity, nothing = np.array([1.0, -1.0, 2.0]), np.zeros(3)
-    way, _ = LinearMotion(DEFECTIVE, velocity).at(0.5)
+    way = LinearMotion(DEFECTIVE, velocity).course(0.5).way
     expected, _ = stepped(DEFECTIVE, velocity, nothing, 1.0, 0.5)
     assert way == pytest.approx(expected, abs=1e-3)
 
@@ -92,4 +89,4 @@ def test_a_motion_that_dies_away_ends_at_its_place_of_rest():
     linear = LinearMotion(jacobian, np.array([1.0, 2.0]))
     assert linear.growth < 0.0
     assert jacobian @ linear.to_rest == pytest.approx([-1.0, -2.0])
-    assert linear.at(60.0)[0] == pytest.approx(linear.to_rest)
+    assert linear.course(60.0).way == pytest.approx(linear.to_rest)

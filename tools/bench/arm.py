@@ -39,7 +39,7 @@ def rows() -> list[Row]:
         work = f'an arm of {JOINTS}, {law}'
         found.append(at_most(f'{work}: a joint, none slips', '12 µs', held / HELD_LIMIT, 1.0))
         slips = _slips(arm)
-        for name, share in (('half of', 0.5), ('nine tenths of', 0.9)):
+        for name, share in (('half of', 0.5), ('nine tenths of', 0.9), ('99 in 100 of', 0.99)):
             took = slips[int(share * (len(slips) - 1))]
             what = f'{work}: {name} the updates in which some slip'
             found.append(at_most(what, '2 ms', took / SLIP_LIMIT, 1.0))

@@ -17,6 +17,9 @@ from .carried import Carried
 
 Floats = NDArray[np.float64]
 
+Law = tuple[LoadedLaw, float, float, Tensions]
+"""The contact law of a joint, r T in N m, |P| / T, and the pair of tensions that they are of"""
+
 ULPS = 2e-15
 """Share of what is added up by which a sum may be wrong, some units in the last place"""
 
@@ -47,10 +50,12 @@ class Excess:
         self._crossing, self._tensions = crossing, tensions
         self.at_joints = at_joints
         self.springs = [design.stiffness for design in arm.designs]
+        self._stiffness = np.array(self.springs)
         self.levers = [design.cable_lever for design in arm.designs]
         self._pairs = self._pairs_of(at_joints)
         self.rounding = self._rounding()
-        self._laws: dict[tuple[int, float], tuple[Tensions, LoadedLaw, float, float]] = {}
+        self.laws: dict[tuple[int, float], Law] = {}
+        """By joint and side, as they were last"""
 
     def _rounding(self) -> list[float]:
         """What M of each joint may be wrong by in N m, from the size of all that it is made of."""
@@ -89,20 +94,20 @@ class Excess:
     def _pairs_of(self, at_joints: AtJoints) -> list[Tensions]:
         return [pair_at(*both) for both in zip(self._crossing, at_joints, strict=True)]
 
-    def law(self, joint: int, side: float, pair: Tensions) -> tuple[LoadedLaw, float, float]:
-        """Return the contact law of a joint for slipping to a side, r T in N m, and |P| / T."""
-        kept = self._laws.get((joint, side))
-        if kept is None or kept[0] is not pair:
+    def law(self, joint: int, side: float, pair: Tensions) -> Law:
+        """Return the contact law of a joint for slipping to a side."""
+        kept = self.laws.get((joint, side))
+        if kept is None or kept[3] is not pair:
             excess = self.carried.excess(joint, pair)
             slip = Slip(self.carried.upright[joint], excess, *pair, side)
             scale = self.arm.designs[joint].ball_radius * slip.total
-            self._laws[joint, side] = kept = pair, slip.law, scale, slip.share
-        return kept[1:]
+            self.laws[joint, side] = kept = slip.law, scale, slip.share, pair
+        return kept
 
     def by_tensions(self, joint: int, side: float, look: Look) -> list[float]:
         """∂f/∂T in m of one joint by the tension at it of every cable."""
         crossing, design = self._crossing[joint], self.arm.designs[joint]
-        law, _, share = self.law(joint, side, look.pairs[joint])
+        law, _, share, _ = self.law(joint, side, look.pairs[joint])
         turn = look.turns[joint]
         state = law.at(turn.real, side * turn.imag)
         held = side * design.ball_radius * (state[0] - share * law.by_share(state))
@@ -132,29 +137,21 @@ class Excess:
 
     def jacobian(self, look: Look, moving: dict[int, float], by: list[int]) -> Floats:
         """∂f/∂θ in N·m/rad, of the joints that move, by joint and side, by those of `by`."""
-        pushed = (
-            by_angles(self.arm, self._tensions, look.angles, look.at_joints)
-            if self.arm.cable_friction_coefficient
-            else None
-        )
-        rows = []
-        for i, side in moving.items():
-            slope = look.capacity(i, side)[1]
-            row = [
-                -look.turned[max(i, j)].imag - (slope if j <= i else 0.0) - self._spring(i, j)
-                for j in by
-            ]
-            if pushed:
+        joints, others = np.array(list(moving))[:, None], np.array(by)
+        turned = np.array([one.imag for one in look.turned])
+        slopes = np.array([look.capacity(i, side)[1] for i, side in moving.items()])
+        rows: Floats = -turned[np.maximum(joints, others)]
+        rows -= slopes[:, None] * (others <= joints)
+        rows -= self._stiffness[joints] * (others == joints)
+        if self.arm.cable_friction_coefficient:
+            pushed = by_angles(self.arm, self._tensions, look.angles, look.at_joints)
+            for row, (i, side) in zip(rows, moving.items(), strict=True):
                 gains = self.by_tensions(i, side, look)
                 for cable in self._crossing[i].left + self._crossing[i].right:
                     for j, slope in pushed[i][cable].items():
                         if j in by:
                             row[by.index(j)] += gains[cable] * slope
-            rows.append(row)
-        return np.array(rows)
-
-    def _spring(self, i: int, j: int) -> float:
-        return self.springs[i] if i == j else 0.0
+        return rows
 
 
 class Look:
@@ -189,15 +186,60 @@ class Look:
         """K in N m for slipping to a side, and side ∂K/∂Θ."""
         known = self._capacities.get((joint, side))
         if known is None:
-            law, scale, _ = self._excess.law(joint, side, self.pairs[joint])
+            law, scale, _, _ = self._excess.law(joint, side, self.pairs[joint])
             turn = self.turns[joint]
             state: tuple[Any, ...] = law.at(turn.real, side * turn.imag)
             known = self._capacities[joint, side] = scale * state[0], scale * state[1]
         return known
 
-    def velocity(self, joint: int, side: float) -> float:
-        """F = M − side K in N m."""
-        return self.moment(joint) - side * self.capacity(joint, side)[0]
+    def velocities(self, sides: dict[int, float]) -> list[float]:
+        """Return f = M − side K in N m of some joints, by their sides."""
+        excess, known, angles = self._excess, self._capacities, self.angles
+        found = []
+        for joint, side in sides.items():
+            capacity = known.get((joint, side)) or self.capacity(joint, side)
+            left, right = self.pairs[joint]
+            moment = (right - left) * excess.levers[joint] + self.turned[joint].real
+            moment -= excess.springs[joint] * angles[joint]
+            found.append(moment - side * capacity[0])
+        return found
+
+    def flow(self, leaning: list[float]) -> list[float]:
+        """Return θ' in N m of all joints by the rule of `flow`.
+
+        Parameters
+        ----------
+        leaning : list of float
+            The side to which a joint does not move, since it is at its stop; 0 if there is none.
+        """
+        excess, capacities = self._excess, self._capacities
+        laws, found = excess.laws, []
+        parts = zip(leaning, self.moments(), self.turns, self.pairs, strict=True)
+        for joint, (stopped, moment, turn, pair) in enumerate(parts):
+            side = -1.0 if moment < 0.0 else 1.0
+            if side == stopped:
+                found.append(0.0)
+                continue
+            kept = laws.get((joint, side))
+            if kept is None or kept[3] is not pair:
+                kept = excess.law(joint, side, pair)
+            law, scale, _, _ = kept
+            state = law.at(turn.real, side * turn.imag)
+            capacity = scale * state[0]
+            capacities[joint, side] = capacity, scale * state[1]
+            found.append(moment - side * capacity if side * moment > capacity else 0.0)
+        return found
+
+    def moments(self) -> list[float]:
+        """Return M in N m of all joints."""
+        excess = self._excess
+        parts = zip(
+            *(self.pairs, self.turned, self.angles, excess.levers, excess.springs), strict=True
+        )
+        return [
+            (right - left) * lever + turned.real - spring * angle
+            for (left, right), turned, angle, lever, spring in parts
+        ]
 
     def drive(self, joint: int) -> tuple[float, float, float]:
         """Side to which M drives, the excess |M| − K in N m, and K."""

@@ -11,8 +11,9 @@ so the way of all joints together is bounded, and the arm comes to rest.
 
 The motion is smooth while it is the same joints that move. It is followed so, leg by leg, and a
 leg ends where another joint comes to its limit, one falls below it, or one meets its stop; see
-`legs`. Where none does before all are at rest, and that is near, M = K of those that move is
-solved by Newton's method instead; see `rest`.
+`legs`. A long way is gone in `strides` instead, for as long as these are long. Where no other
+joint moves before all are at rest, and that is near, M = K of those that move is solved by
+Newton's method; see `rest`.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from .excess import Excess, Look
 from .legs import FAR, Leg
 from .motion import Motion
 from .rest import TINY, come_to_rest
+from .strides import SHORT, go_strides, suits_strides
 
 MOST_LEGS = 3000
 
@@ -50,7 +52,7 @@ def settle(excess: Excess, angles: list[float]) -> Settled:
     ArmError
         If it is not followed to rest in `MOST_LEGS`, a hundred times as many as it takes.
     """
-    motion, far = Motion(excess, angles), FAR
+    motion, far, may_stride = Motion(excess, angles), FAR, True
     for _ in range(MOST_LEGS):
         if not motion.moving:
             pairs = zip(angles, motion.look.angles, strict=True)
@@ -60,6 +62,11 @@ def settle(excess: Excess, angles: list[float]) -> Settled:
             leg = Leg(motion, far)
         except np.linalg.LinAlgError:
             break
+        if may_stride and suits_strides(motion, leg):
+            go_strides(motion, leg.linear.far(SHORT))
+            may_stride = False
+            continue
+        may_stride = True
         if not _rests(motion, leg):
             far = leg.go()
             if not far:

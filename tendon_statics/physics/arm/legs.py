@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .excess import Look
-from .linear_motion import LinearMotion, Path
+from .linear_motion import END, SQUARES, LinearMotion, Path
 from .motion import TOLERANCE, Motion
 from .rest import NEAR
 
@@ -36,7 +36,7 @@ account"""
 SMALL = 1e-3
 """Share of the fastest joint's velocity by which another may seem to fall below its limit"""
 
-JUST_BEYOND = 0.02
+JUST_BEYOND = 0.1
 """Share of an interval of time by which a leg goes beyond where other joints move, so that they
 do"""
 
@@ -47,9 +47,6 @@ MOST_SPAN = 1e9
 """Of the last time that is looked at to the first"""
 
 MOST_TRIALS = 40
-
-PARTS = np.arange(0, 23) / 20.0
-"""Of a leg, that are looked at once it is known how it bends, and a little beyond"""
 
 
 class Leg:
@@ -79,10 +76,11 @@ class Leg:
 
     def __init__(self, motion: Motion, far: float) -> None:
         self._motion = motion
-        rows = motion.jacobian_rows()
+        sides = motion.sides()
+        rows = motion.jacobian_rows(sides)
         self.jacobian: Floats = rows[list(motion.moving)]
         self.linear = LinearMotion(self.jacobian, motion.velocity(motion.look))
-        self._changes = _Changes(motion, rows)
+        self._changes = _Changes(motion, sides, rows)
         reach = abs(self.linear.to_rest).max()
         self.may_rest = bool(self.linear.growth < 0.0 and reach <= NEAR)
         if self.may_rest:
@@ -93,17 +91,18 @@ class Leg:
 
     def go(self) -> float:
         """Go the leg; return how far in rad the next may be tried, 0 if this was not gone."""
-        motion, linear = self._motion, self.linear
-        end = min(self.time, linear.lifetime)
+        motion = self._motion
+        end = min(self.time, self.linear.lifetime)
         for _ in range(MOST_TRIALS):
-            way, velocity = linear.at(end)
+            course = self.linear.course(end)
+            way = course.way
             if not abs(way).max() <= 2.0 * FAR:
                 end *= 0.1
                 continue
             look = motion.after(way)
-            remainder = motion.velocity(look) - velocity
-            bend, faster = linear.bend(end, remainder)
-            error = _amiss(bend, way, velocity + faster)
+            path = course.bent(motion.velocity(look) - course.velocity)
+            bend = path.ways[:, END] - way
+            error = _amiss(bend, way, path.velocities[:, END])
             if error <= 1.0:
                 break
             end *= max(0.1, 0.9 * error ** (-1.0 / 3.0)) if error < math.inf else 0.1
@@ -111,87 +110,103 @@ class Leg:
             return 0.0
         far: float = float(abs(way).max()) * 0.9 * max(error, 1e-12) ** (-1.0 / 3.0)
         if abs(bend).max() > TOLERANCE:
-            resting = self._changes.remainder(look, way)
-            path = linear.path(end * PARTS, remainder, end)
-            time = self._changes.first(path, resting, end)
-            time = end if time == math.inf else time
-            bend, _ = linear.bend(time, (time / end) ** 2 * remainder)
-            look = motion.after(linear.at(time)[0] + bend)
+            way = self._changes.first_way(path, way, look)
+            look = motion.after(path.ways[:, END] if way is None else way)
         motion.take(look)
         motion.change()
         return min(FAR, far)
 
 
 def _amiss(bend: Floats, way: Floats, velocity: Floats) -> float:
-    """Return the error of the linear motion, as a share of what is accepted.
+    """Return the error of the linear motion, as a share of what is accepted."""
+    aside, along = aside_and_along(bend, velocity)
+    return max(aside / LEG_ERROR, along / (ALONG * float(abs(way + bend).max())))
 
-    Along the motion it counts less: how fast it goes is of no account.
+
+def aside_and_along(error: Floats, velocity: Floats) -> tuple[float, float]:
+    """Return how large in rad an error is across the motion, and along it.
+
+    Along it counts less: how fast it goes is of no account.
     """
     square = float(velocity @ velocity)
-    along = (float(bend @ velocity) / square if square > 0.0 else 0.0) * velocity
-    aside = float(abs(bend - along).max()) / LEG_ERROR
-    return max(aside, float(abs(along).max() / (ALONG * abs(way + bend).max())))
+    along = (float(error @ velocity) / square if square > 0.0 else 0.0) * velocity
+    return float(abs(error - along).max()), float(abs(along).max())
 
 
 class _Changes:
     """What tells where on a path other joints move than at its start."""
 
-    def __init__(self, motion: Motion, rows: Floats) -> None:
-        moving = list(motion.moving)
-        sides = np.array(list(motion.moving.values()))
-        angles = np.array([motion.look.angles[joint] for joint in moving])
-        to_go = np.array([motion.stops[joint] for joint in moving]) - sides * angles
-        if motion.rubs:  # to where it is straight, if it has that before it
-            to_go = np.where(sides * angles < 0.0, -sides * angles, to_go)
-        self._sides, self._to_go = sides[:, None], to_go[:, None]
-        self._resting = resting = motion.resting()
-        ahead = np.array([side for side, _ in resting.values()]).reshape(-1, 1)
-        self._rows = ahead * rows[list(resting)]
-        self._excess = np.array([excess for _, excess in resting.values()])
+    def __init__(self, motion: Motion, sides: dict[int, float], rows: Floats) -> None:
+        look, moving = motion.look, motion.moving
+        self._resting: dict[int, float] = {}
+        # Of every joint what is above zero once it has happened: the excess of one at rest, the
+        # way beyond its stop of one that moves. How that is at first, and how it goes by the way.
+        at_first = []
+        for joint, side in sides.items():
+            ahead = side * look.angles[joint]
+            if joint in moving:
+                # With friction of cables to where it is straight, if it has that before its stop.
+                straight = motion.rubs and ahead < 0.0
+                at_first.append(ahead if straight else ahead - motion.stops[joint])
+            elif motion.lean_on_stop(joint, side):
+                at_first.append(-math.inf)
+            else:
+                self._resting[joint] = side
+                at_first.append(look.drive(joint)[1])
+        self._at_first: Floats = np.array(at_first)[:, None]
+        self._by_way: Floats = np.array(list(sides.values()))[:, None] * rows
+        self._by_way[list(moving)] = np.diag(list(moving.values()))
+        self._sides: Floats = np.array(list(moving.values()))[:, None]
 
-    def remainder(self, look: Look, way: Floats) -> Floats:
-        """Return by how much the excess of joints at rest is more than linear."""
-        found = np.array(
-            [side * look.velocity(joint, side) for joint, (side, _) in self._resting.items()]
-        )
-        return np.asarray(found - self._excess - self._rows @ way, np.float64)
+    def first(self, path: Path) -> float:
+        """Return the first time at which other joints move, were the motion linear.
 
-    def first(
-        self,
-        path: Path,
-        remainder: Floats | None = None,
-        end: float = 1.0,
-    ) -> float:
-        """Return the first time at which other joints move, just on the far side.
+        Just on the far side; infinite if there is none.
+        """
+        found = self._first(path, self._at_first + self._by_way @ path.ways)
+        return math.inf if found is None else found[0]
 
-        Infinite if there is none.
+    def first_way(self, path: Path, way: Floats, look: Look) -> Floats | None:
+        """Return the way to where other joints move first, just on the far side.
+
+        None if there is none.
 
         Parameters
         ----------
-        remainder, end : array, float
-            What `remainder` says of the end of the leg, and when that is.
+        path : Path
+            Of a whole leg, at its `PARTS`.
+        way, look : array, Look
+            Its end, were the motion linear.
         """
-        times, ways, velocities, accelerations = path
+        signals = self._at_first + self._by_way @ path.ways
+        resting = list(self._resting)
+        if resting:  # what is not linear in their excess is taken to come with the square of time
+            sides = np.array(list(self._resting.values()))
+            linear = self._at_first[resting, 0] + self._by_way[resting] @ way
+            remainder = sides * look.velocities(self._resting) - linear
+            signals[resting] += remainder[:, None] * SQUARES
+        found = self._first(path, signals)
+        return None if found is None else path.way(*found)
+
+    def _first(self, path: Path, signals: Floats) -> tuple[float, int] | None:
+        """Return when the first change is, and the place in the path's times after it."""
+        times, ways, velocities = path
+        forwards = self._sides * velocities
         fastest = abs(velocities).max(axis=0)
-        sides = self._sides
-        ahead = sides * ways
-        falls = -sides * velocities - SMALL * fastest
-        back = (np.maximum.accumulate(ahead, axis=1) - ahead).max(axis=1, keepdims=True)
-        falls = np.where((sides * accelerations < 0.0) & (back > TOLERANCE), falls, -fastest)
-        parts = [falls, ahead - self._to_go]
-        if len(self._excess):
-            excess = self._rows @ ways + self._excess[:, None]
-            if remainder is not None:
-                excess += remainder[:, None] * (times / end) ** 2
-            parts.append(excess)
-        signals = np.concatenate(parts)
-        there = np.flatnonzero((signals[:, 1:] > 0.0).any(axis=0))
-        if not len(there):
-            return math.inf
-        place = int(there[0]) + 1
-        happens = signals[:, place] > 0.0
+        slow = SMALL * fastest
+        if (forwards < -slow).any():
+            ahead = self._sides * ways
+            back = (np.maximum.accumulate(ahead, axis=1) - ahead).max(axis=1, keepdims=True)
+            falls = (np.diff(forwards, prepend=0.0) < 0.0) & (back > TOLERANCE)
+            falling = np.where(falls, -forwards - slow, -fastest)
+            signals = np.concatenate((signals, falling))
+        happened = signals[:, 1:] > 0.0
+        if not happened.any():
+            return None
+        place = int(happened.any(axis=0).argmax()) + 1
+        happens = happened[:, place - 1]
         was, now = signals[happens, place - 1], signals[happens, place]
         shares = np.where(was < 0.0, was / (was - now), 1.0)
         share = min(float(shares.min()) + JUST_BEYOND, 1.0)
         before = times[place - 1]
-        return float(before + share * (times[place] - before))
+        return float(before + share * (times[place] - before)), place

@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 MOST_GROWTH = 300.0
 """Exponent of what grows beyond which it is no more followed"""
 
-SMALL_PHASE = 0.05
+SMALL_PHASE = 0.01
 """Size of λ t below which φ₃ is taken from its series, where the closed form cancels"""
 
 DOUBLINGS = 2.0 ** np.arange(-6, 12)
@@ -29,13 +29,36 @@ COUPLING = 1e-3
 """Share of J by which it is changed where it has too few eigenvectors"""
 
 
+PARTS = np.arange(0, 23) / 20.0
+"""Of the time of a course, that are looked at, and a little beyond"""
+
+END = 20
+"""Which of them is its end"""
+
+SQUARES, CUBES = PARTS**2, PARTS**3
+
+
 class Path(NamedTuple):
     """Where a motion is at some times: a column for each."""
 
     times: Floats
     ways: Floats
     velocities: Floats
-    accelerations: Floats
+
+    def way(self, time: float, place: int) -> Floats:
+        """Return the way up to a time between that of a column and of the one before it.
+
+        By the cubic that has the ways and velocities of both.
+        """
+        before = self.times[place - 1]
+        span = self.times[place] - before
+        share = (time - before) / span
+        rest = 1.0 - share
+        ways, velocities = self.ways, self.velocities * span
+        found: Floats = rest * rest * (
+            (1.0 + 2.0 * share) * ways[:, place - 1] + share * velocities[:, place - 1]
+        ) + share * share * ((1.0 + 2.0 * rest) * ways[:, place] - rest * velocities[:, place])
+        return found
 
 
 class LinearMotion:
@@ -52,6 +75,8 @@ class LinearMotion:
     ----------
     growth : float
         The fastest rate at which it grows; below zero where it dies away.
+    decay : float
+        The fastest rate at which some of it dies away; zero if none does.
     to_rest : array
         Way to where it comes to rest, if it dies away and stays linear.
 
@@ -69,12 +94,11 @@ class LinearMotion:
             # Any small coupling gives it all eigenvectors; what that is amiss is remainder.
             ends = np.eye(len(jacobian))[::-1]
             rates, of_modes = self._decompose(jacobian + COUPLING * abs(jacobian).max() * ends)
-        self._rates = np.where(rates == 0.0, NO_RATE, rates)
+        self._rates = rates if rates.all() else np.where(rates == 0.0, NO_RATE, rates)
         self._ways = of_modes / self._rates
         self.growth = float(rates.real.max())
+        self.decay = -min(float(rates.real.min()), 0.0)
         self.to_rest: Floats = -(self._modes @ self._ways).real
-        # Where nothing grows or dies away, time is measured by the way: in that of a radian.
-        self._fast = float(max(abs(self._rates).max(), abs(velocity).max()))
         self._slow = float(abs(self._rates.real).min())
 
     def _decompose(self, jacobian: Floats) -> tuple[Any, Any]:
@@ -102,9 +126,11 @@ class LinearMotion:
         most : float
             Of the last to the first at the most.
         """
-        span = min(64.0 * self._fast / self._slow, most)
+        # Where nothing grows or dies away, time is measured by the way: in that of a radian.
+        fast = float(max(abs(self._rates).max(), abs(self.velocity).max()))
+        span = min(64.0 * fast / self._slow, most)
         count = int(math.log(span) / math.log(ratio)) + 2
-        return np.asarray(0.125 / self._fast * ratio ** np.arange(count), np.float64)
+        return np.asarray(0.125 / fast * ratio ** np.arange(count), np.float64)
 
     @property
     def lifetime(self) -> float:
@@ -116,17 +142,9 @@ class LinearMotion:
         of_modes = np.expm1(self._phases(times)) * self._ways[:, None]
         return np.asarray((self._modes @ of_modes).real, np.float64)
 
-    def at(self, time: float) -> tuple[Floats, Floats]:
-        """Return way and velocity at a time, were it linear."""
-        of_modes = np.expm1(self._phases(time)) * self._ways
-        way: Floats = (self._modes @ of_modes).real
-        return way, self.velocity + self._jacobian @ way
-
-    def bend(self, time: float, remainder: Floats) -> tuple[Floats, Floats]:
-        """Return what a remainder adds to way and velocity at a time, if it is d·(t/h)² there."""
-        gains = 2.0 * time * _phi_3(self._phases(time))
-        way: Floats = (self._modes @ (gains * (self._inverse @ remainder))).real
-        return way, remainder + self._jacobian @ way
+    def course(self, end: float) -> Course:
+        """Return the motion up to a time, were it linear, and what a remainder makes of it."""
+        return Course(self, end)
 
     def far(self, way: float) -> float:
         """Return about when it would be as far as a way, were it linear; infinite if never."""
@@ -141,45 +159,53 @@ class LinearMotion:
         share = (way - gone[place - 1]) / (gone[place] - gone[place - 1])
         return float(times[place - 1] + share * (times[place] - times[place - 1]))
 
-    def path(self, times: Floats, remainder: Floats | None = None, end: float = 1.0) -> Path:
-        """Return where it is at some times.
+    def path(self, times: Floats) -> Path:
+        """Return where it is at some times, were it linear."""
+        ways = self.ways(times)
+        velocities = self.velocity[:, None] + self._jacobian @ ways
+        return Path(times, ways, velocities)
 
-        Parameters
-        ----------
-        remainder : array, optional
-            d; None: zero.
-        end : float
-            h.
-        """
-        if remainder is None:
-            ways = self.ways(times)
-            velocities = self.velocity[:, None] + self._jacobian @ ways
-            return Path(times, ways, velocities, self._jacobian @ velocities)
-        shares = times / end
-        squares = shares * shares
-        phases = self._phases(times)
-        of_modes = np.expm1(phases) * self._ways[:, None]
-        of_modes += 2.0 * times * squares * _phi_3(phases) * (self._inverse @ remainder)[:, None]
-        ways = (self._modes @ of_modes).real
-        velocities = self.velocity[:, None] + self._jacobian @ ways + squares * remainder[:, None]
-        accelerations = self._jacobian @ velocities + (2.0 / end) * shares * remainder[:, None]
-        return Path(times, ways, velocities, accelerations)
-
-    def _phases(self, times: Any) -> Any:
-        """λ t of all modes, at a time or, a column for each, at some."""
-        phases = self._rates * times if np.ndim(times) == 0 else np.outer(self._rates, times)
-        if self.growth > 0.0:
+    def _phases(self, times: Floats) -> Any:
+        """λ t of all modes, a column for each time."""
+        phases = self._rates[:, None] * times
+        if self.growth * times[-1] > MOST_GROWTH:
             phases = np.where(phases.real > MOST_GROWTH, MOST_GROWTH, phases)
         return phases
+
+
+class Course:
+    """A `LinearMotion` up to a time h, at all `PARTS` of it.
+
+    Attributes
+    ----------
+    way, velocity : array
+        At h, were it linear.
+    """
+
+    def __init__(self, linear: LinearMotion, end: float) -> None:
+        self._linear, self._end = linear, end
+        self._times: Floats = end * PARTS
+        self._phases = linear._phases(self._times)
+        of_modes = np.expm1(self._phases) * linear._ways[:, None]
+        self._ways: Floats = (linear._modes @ of_modes).real
+        self.way = self._ways[:, END]
+        self.velocity: Floats = linear.velocity + linear._jacobian @ self.way
+
+    def bent(self, remainder: Floats) -> Path:
+        """Return where it is if there is a remainder d·(t/h)²; `remainder` is d."""
+        linear = self._linear
+        gains = (2.0 * self._end) * CUBES * _phi_3(self._phases)
+        of_modes = gains * (linear._inverse @ remainder)[:, None]
+        ways = self._ways + (linear._modes @ of_modes).real
+        velocities = linear.velocity[:, None] + linear._jacobian @ ways
+        velocities += SQUARES * remainder[:, None]
+        return Path(self._times, ways, velocities)
 
 
 def _phi_3(phases: Any) -> Any:
     """φ₃(z) = (e^z − 1 − z − z²/2) / z³."""
     small = abs(phases) < SMALL_PHASE
-    if not small.any():
-        return (np.expm1(phases) - phases - 0.5 * phases * phases) / phases**3
     z = np.where(small, 1.0, phases)
-    found = (np.expm1(z) - z - 0.5 * z * z) / z**3
-    z = phases
-    series = (1.0 + 0.25 * z * (1.0 + 0.2 * z * (1.0 + z / 6.0 * (1.0 + z / 7.0)))) / 6.0
-    return np.where(small, series, found)
+    squares = z * z
+    found = (np.expm1(z) - z - 0.5 * squares) / (squares * z)
+    return np.where(small, (1.0 + phases * (0.25 + 0.05 * phases)) / 6.0, found)

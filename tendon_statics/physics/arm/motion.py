@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -48,7 +50,7 @@ class Motion:
 
     def velocity(self, look: Look) -> Floats:
         """Return f of the joints that move, in N m, elsewhere."""
-        return np.array([look.velocity(i, side) for i, side in self.moving.items()])
+        return np.array(look.velocities(self.moving))
 
     def jacobian(self, look: Look) -> Floats:
         """Return ∂f/∂θ of the joints that move, in N·m/rad, elsewhere."""
@@ -59,6 +61,10 @@ class Motion:
         angles = list(self.look.angles)
         for joint, by in zip(self.moving, way.tolist(), strict=True):
             angles[joint] += by
+        return self.look_at(angles)
+
+    def look_at(self, angles: list[float]) -> Look:
+        """Look at the arm at bend angles in rad."""
         return self._excess.at(angles)
 
     def take(self, look: Look) -> None:
@@ -70,22 +76,22 @@ class Motion:
         """Whether a joint that is driven to a side is at its stop."""
         return side * self.look.angles[joint] >= self.stops[joint]
 
-    def resting(self) -> dict[int, tuple[float, float]]:
-        """Return the joints at rest that may come to their limit → side and excess in N m."""
-        found = {}
-        for joint in range(len(self.stops)):
-            if joint not in self.moving:
-                side, excess, _ = self.look.drive(joint)
-                if not self.lean_on_stop(joint, side):
-                    found[joint] = side, excess
-        return found
+    def leaning(self) -> list[float]:
+        """Return the side on which each joint is at its stop; 0 where it is not."""
+        return [
+            math.copysign(1.0, angle) if abs(angle) >= stop else 0.0
+            for angle, stop in zip(self.look.angles, self.stops, strict=True)
+        ]
 
-    def jacobian_rows(self) -> Floats:
-        """Return ∂f/∂θ of all joints, by those that move; of those at rest to where M drives."""
-        sides = {
+    def sides(self) -> dict[int, float]:
+        """Return the side of every joint: to which it moves, or M drives it."""
+        return {
             joint: self.moving.get(joint) or self.look.drive(joint)[0]
             for joint in range(len(self.stops))
         }
+
+    def jacobian_rows(self, sides: dict[int, float]) -> Floats:
+        """Return ∂f/∂θ of joints with these sides, by those that move."""
         return self._excess.jacobian(self.look, sides, list(self.moving))
 
     def free(self) -> None:
@@ -99,6 +105,12 @@ class Motion:
             if excess > too_much and not self.lean_on_stop(joint, side):
                 self.moving[joint] = side
                 self._from[joint] = self.look.angles[joint]
+
+    def set_out_from(self, look: Look) -> None:
+        """Go there, and set moving what is beyond its limit there."""
+        self.take(look)
+        self.moving, self.at_limit = {}, {}
+        self.free()
 
     def change(self) -> None:
         """Stop what has met its stop or falls below its limit, and free what has come to it."""
@@ -124,11 +136,14 @@ class Motion:
 
         That is told by how the motion goes on, so without what has met its stop.
         """
-        sides = np.array(list(self.moving.values()))
-        velocity = self.velocity(self.look)
-        falls = sides * velocity < 0.0
-        if falls.any():
-            falls &= sides * (self.jacobian(self.look) @ velocity) < 0.0
+        sides = self.moving.values()
+        velocities = self.look.velocities(self.moving)
+        if all(side * velocity >= 0.0 for side, velocity in zip(sides, velocities, strict=True)):
+            return []
+        velocity = np.array(velocities)
+        acceleration = self.jacobian(self.look) @ velocity
+        ahead = np.array(list(sides))
+        falls = (ahead * velocity < 0.0) & (ahead * acceleration < 0.0)
         return [joint for joint, is_falling in zip(self.moving, falls, strict=True) if is_falling]
 
     def come_to_rest(self, look: Look) -> None:

@@ -1,0 +1,100 @@
+"""A long motion in strides, each over all that joints begin and cease on its way.
+
+The velocities f = ±max(|M| − K, 0) of all joints are continuous in their angles, also where a
+joint comes to its limit or falls below it, and so they are where it meets its stop if it is let go
+on beyond that, while the arm stays as at the stop. A Runge-Kutta method needs no more: what bends
+sharply within a step shows in the estimate of its error. This is the pair of orders 5 and 4 by
+Dormand and Prince, J. Comput. Appl. Math. 6 (1980), whose last stage is the first of the next.
+
+It is far cheaper than `legs`, of which one ends at each such event, but short of breath: what dies
+away fast shortens it, as before the rest. So legs go on where strides become short.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .legs import FAR, Leg, aside_and_along
+from .motion import Motion
+
+Floats = NDArray[np.float64]
+
+STIFF = 3.0
+"""λ t up to which what dies away at the rate λ does not shorten a stride of the time t, as about
+where the method is stable"""
+
+SHORT = 0.01
+"""Way in rad below which a stride is short"""
+
+MOST_STRIDES = 200
+MOST_LONGER = 5.0
+"""Than one stride the next"""
+
+ASIDE, ALONG = 2e-5, 1e-3
+"""Error of a stride in rad that is accepted, across the motion and along it: how fast it goes is
+of no account, but the velocity at the end tells what is along it for a short way only"""
+
+STAGES: list[Floats] = [
+    np.array(weights)
+    for weights in (
+        [1 / 5],
+        [3 / 40, 9 / 40],
+        [44 / 45, -56 / 15, 32 / 9],
+        [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729],
+        [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656],
+        [35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],
+    )
+]
+"""Of the velocities before it, in the way to each stage; the last stage is the end"""
+
+ERROR: Floats = np.array(
+    [71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40]
+)
+"""Of all velocities, in the difference of the two ways"""
+
+
+def suits_strides(motion: Motion, leg: Leg) -> bool:
+    """Return whether a motion that begins as a leg is better gone in strides.
+
+    Not where cables have friction, which remembers what happens on the way.
+    """
+    return not (leg.may_rest or motion.rubs) and leg.linear.decay * leg.time <= STIFF
+
+
+def go_strides(motion: Motion, time: float) -> None:
+    """Go strides until one is short.
+
+    Parameters
+    ----------
+    time : float
+        Of the first one, to try.
+    """
+    highest = np.array(motion.stops)
+    lowest = -highest
+    angles = np.array(motion.look.angles)
+    velocities: Floats = np.empty((len(ERROR), len(angles)))
+    velocities[0] = motion.look.flow(motion.leaning())
+    for _ in range(MOST_STRIDES):
+        leaning, look = motion.leaning(), motion.look
+        for number, weights in enumerate(STAGES, start=1):
+            beyond = angles + time * weights.dot(velocities[:number])
+            end = np.minimum(np.maximum(beyond, lowest), highest)
+            look = motion.look_at(end.tolist())
+            velocities[number] = look.flow(leaning)
+        far = float(abs(end - angles).max())
+        stopped = end != beyond
+        last = np.where(stopped, 0.0, velocities[-1])
+        error = np.where(stopped, 0.0, time * ERROR.dot(velocities))
+        aside, along = aside_and_along(error, last)
+        share = max(aside / ASIDE, along / ALONG) if far <= 2.0 * FAR else math.inf
+        least = 0.5 * SHORT  # of one that is tried again: what bends sharply is soon behind
+        if share <= 1.0:
+            motion.set_out_from(look)
+            angles, velocities[0], least = end, last, SHORT
+        longer = min(0.9 * max(share, 1e-6) ** -0.2, MOST_LONGER)
+        if not (motion.moving and far * longer >= least):
+            return
+        time *= max(min(longer, FAR / far), 1.0 / MOST_LONGER)
