@@ -46,7 +46,7 @@ STYLE = """
   b { padding: 0.1rem 0.5rem; border-radius: 4px; color: #fff; background: #777777; }
   .joints { overflow-x: auto; } .joints table { font-size: 0.8rem; }
   .joints th, .joints td { padding: 0.15rem 0.4rem 0.15rem 0; vertical-align: top; }
-  .joints small { padding: 0; white-space: nowrap; }
+  .joints th { font-size: 0.7rem; } .joints small { padding: 0; }
   .level-ok { background: #00734f; } .level-warn { background: #9a6a00; }
   .level-error { background: #b34700; }
 """
