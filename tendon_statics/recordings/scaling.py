@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..files.arm_parameters import ARM_PARAMETERS
 from ..files.known_parameters import said_of_unknown
 from ..physics.calibration.load_cells import AS_MEASURED, LoadCells
-from ..tensions.cable_scale import SLACK_STDDEVS, CableScale, scaled_arrays
+from ..tensions.cable_scale import DEFAULT_MAX_TENSION, SLACK_STDDEVS, CableScale, scaled_arrays
 from ..tensions.reason import Reason
 from ..tensions.watch import Plausibility
 from .arm_recording import ArmRecording
@@ -144,6 +144,11 @@ def _said(
             'tensions above '
             + ', '.join(f'{scale.max_tension:g} N ({name})' for name, scale in scales.items())
             + f' are implausible, by the {file} file'
+        )
+    else:
+        found.append(
+            f'tensions up to {DEFAULT_MAX_TENSION:g} N are believed: no max_tension is given in '
+            f'the {file} file'
         )
     if believed.max_rate > 0.0 and recording.time is None:
         found.append(

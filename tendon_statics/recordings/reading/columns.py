@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ..errors import RecordingError
@@ -27,14 +27,23 @@ _LOOSE_UNIT = re.compile(
 """A title with a unit in round brackets or after a stroke, a comma or ``in``, or a last word"""
 
 
+MOST_NAMED = 8
+"""Columns that are not used and are named"""
+
+
 class Column(NamedTuple):
     """Where a quantity stands in a table."""
 
     place: int
     factor: float
     """What one of its unit is in SI"""
-    has_unit: bool = False
-    """Whether the unit is said, and not taken to be SI"""
+    unit: str = ''
+    """The unit that is said; empty: none is, and SI is taken"""
+
+    @property
+    def has_unit(self) -> bool:
+        """Whether the unit is said, and not taken to be SI."""
+        return bool(self.unit)
 
 
 class Columns(NamedTuple):
@@ -48,6 +57,8 @@ class Columns(NamedTuple):
     """Places of what is left alone"""
     in_newtons: bool = False
     """Whether the tensions are in N for certain, since their units are said"""
+    notes: tuple[str, ...] = ()
+    """How they were read, for people"""
 
 
 def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> Columns:
@@ -97,7 +108,28 @@ def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> 
     used = {column.place for column in found.values()} | {*(time.places if time else ())}
     used |= set() if state is None else {state.place}
     others = tuple(place for place in range(len(titles)) if place not in used)
-    return Columns(found, time, None if state is None else state.place, others, in_newtons)
+    state_place = None if state is None else state.place
+    notes = *_converted(found, quantities), *_unused([titles[place] for place in others])
+    return Columns(found, time, state_place, others, in_newtons, notes)
+
+
+def _converted(found: Mapping[str, Column], quantities: Quantities) -> Iterator[str]:
+    """Say which columns were in another unit than that of SI."""
+    of_unit: dict[tuple[str, str], list[str]] = {}
+    for name, column in found.items():
+        if column.factor != 1.0:
+            si = next(iter(quantities.kinds[name].units))
+            of_unit.setdefault((column.unit, si), []).append(name)
+    for (unit, si), names in of_unit.items():
+        yield f'{" and ".join(names)}: in {unit}, converted to {si}'
+
+
+def _unused(titles: Sequence[str]) -> Iterator[str]:
+    """Say which columns are left alone."""
+    named = [title for title in titles if title.strip()]
+    if named:
+        more = f' and {len(named) - MOST_NAMED} more' if len(named) > MOST_NAMED else ''
+        yield f'not used: {", ".join(named[:MOST_NAMED])}{more}'
 
 
 def _there(titles: Sequence[str], needed: Sequence[str]) -> str:
@@ -153,7 +185,7 @@ def _column(place: int, quantity: str, unit: str | None, options: TableOptions) 
         return Column(place, 1.0)
     if quantity in options.units and quantities.common(quantity, unit) is None:
         return Column(place, 1.0)  # What the option says counts.
-    return Column(place, quantities.factor(quantity, unit), has_unit=True)
+    return Column(place, quantities.factor(quantity, unit), unit)
 
 
 def _split(title: str, quantity: str, quantities: Quantities) -> tuple[str, str | None]:
@@ -186,7 +218,7 @@ def _with_unit(unit: str, factor: float, column: Column, titles: Sequence[str]) 
         raise RecordingError(
             f'the unit of {titles[column.place]!r} stands in its title, and --units says {unit}'
         )
-    return Column(column.place, factor, has_unit=True)
+    return Column(column.place, factor, unit)
 
 
 def _time(
