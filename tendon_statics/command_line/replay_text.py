@@ -94,9 +94,9 @@ def _band_facts(summary: ReplaySummary, confidence: float) -> Facts:
         facts.append(
             (
                 'within it',
-                f'{100.0 * band.within:.4g} % of the measured angles, with '
-                f'{_degrees(band.sensor_spread)} to spare at either end: two standard deviations '
-                'of the angle sensor',
+                f'{100.0 * band.within:.4g} % of the measured angles, with the interval widened '
+                'to either side by two standard deviations of the sensor, '
+                f'{_degrees(band.sensor_spread)}',
             )
         )
     return facts

@@ -36,7 +36,7 @@ TITLES = (
 
 
 IN_NEWTONS = (
-    'the titles say that these tensions are in a unit of force, and such columns are taken as they '
+    'by their titles these tensions are in a unit of force, and such columns are taken as they '
     'are: a bias counts only for what the node reads, and for columns without a unit'
 )
 

@@ -38,7 +38,8 @@ def of_unit(recording: Recording, unit: Unit) -> Recording:
         *filter(None, [unit.addressed]),
         *unit.unknown,
         *_said(scales, believed, recording, applies, 'design', limited=limited),
-        _slack_said(scales, unit.settings.tension_stddev, unit.parameters),
+        _slack_said(scales, unit.settings.tension_stddev, unit.parameters)
+        + _limit_said(limited=limited),
     ]
     return dataclasses.replace(
         recording,
@@ -68,7 +69,7 @@ def of_arm(
     said = [
         *said_of_unknown(given, (of.name for of in ARM_PARAMETERS)),
         *_said(scales, settings.plausibility, recording, applies, 'parameter', limited=limited),
-        _slack_said(scales, settings.tension_stddev, given),
+        _slack_said(scales, settings.tension_stddev, given) + _limit_said(limited=limited),
     ]
     return dataclasses.replace(
         recording,
@@ -145,11 +146,6 @@ def _said(
             + ', '.join(f'{scale.max_tension:g} N ({name})' for name, scale in scales.items())
             + f' are implausible, by the {file} file'
         )
-    else:
-        found.append(
-            f'tensions up to {DEFAULT_MAX_TENSION:g} N are believed: no max_tension is given in '
-            f'the {file} file'
-        )
     if believed.max_rate > 0.0 and recording.time is None:
         found.append(
             f'max_tension_rate of the {file} file is not checked: there are no times '
@@ -183,4 +179,13 @@ def _slack_said(
             else f'{SLACK_STDDEVS:g} times the tension_stddev of {tension_stddev:g} N'
         )
         for (threshold, is_given), names in by_threshold.items()
+    )
+
+
+def _limit_said(*, limited: bool) -> str:
+    """Say up to which tension all is believed, where no file gives a limit."""
+    return (
+        ''
+        if limited
+        else f'; tensions up to {DEFAULT_MAX_TENSION:g} N are believed, as no max_tension is given'
     )

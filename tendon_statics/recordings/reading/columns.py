@@ -185,7 +185,8 @@ def _column(place: int, quantity: str, unit: str | None, options: TableOptions) 
         return Column(place, 1.0)
     if quantity in options.units and quantities.common(quantity, unit) is None:
         return Column(place, 1.0)  # What the option says counts.
-    return Column(place, quantities.factor(quantity, unit), unit)
+    factor = quantities.factor(quantity, unit)
+    return Column(place, factor, quantities.common(quantity, unit) or unit)
 
 
 def _split(title: str, quantity: str, quantities: Quantities) -> tuple[str, str | None]:
