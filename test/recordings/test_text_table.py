@@ -113,9 +113,8 @@ def test_the_preamble_of_labview_tells_steps_of_time_and_units(file):
     assert recording.notes[1:] == (
         'tension_l: in mN, by Y_Unit_Label',
         'tension_s: in N, by Y_Unit_Label',
-        'time: 0.01 s from row to row, by Delta_X',
         'tension_l: in mN, converted to N',
-        'not used: X_Value, Comment',
+        'time: 0.01 s from row to row, by Delta_X',
     )
     rate = load_recording(file(text, 'run.lvm'), table=TableOptions(rate=50.0))
     assert rate.time.tolist() == [0.0, 0.02]
@@ -152,12 +151,12 @@ def test_what_the_preamble_of_labview_does_not_tell_names_the_options(file):
     recording = load_recording(file(text, 'run.lvm')).whole()
     assert recording.tensions() == [(1000.0, 1.5), (1000.0, 1.6)]
     assert (recording.time, recording.in_newtons) == (None, False)
-    _, volts, _, times, _ = recording.notes
+    _, volts, _, times = recording.notes
     assert 'Y_Unit_Label is Volts' in volts
     assert '--units tension_l=UNIT' in volts
     assert '--rate HZ' in times
     parts = CHANNELS.format(columns='No', units='N', steps='0.01') + OF_ONE + OF_ONE
-    assert '2 parts' in load_recording(file(parts, 'run.lvm')).notes[-2]
+    assert '2 parts' in load_recording(file(parts, 'run.lvm')).notes[-1]
 
 
 @pytest.mark.parametrize('encoding', ['utf-16', 'utf-8-sig'])
