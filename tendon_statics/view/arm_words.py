@@ -31,8 +31,8 @@ MEANINGS = {
 """Regime → what it means for an arm; the first that a joint has is what is said of the whole"""
 
 NO_ARM = (
-    'It does not tell its arm_file, or that is not to be had on the machine of this page; without '
-    'it the arm is not drawn.'
+    'The arm is not drawn: the estimator does not tell its arm_file, or this machine does not have '
+    'that file.'
 )
 
 HEADS = ('', 'joint', 'regime', 'bend angle', 'can hold at', 'slip margin', 'pressure [Pa]')

@@ -40,7 +40,7 @@ def test_what_is_not_determined_has_no_number():
 
 def test_doubts_are_named():
     words = state_words(estimate_of(*PUBLISHED, load_assured=False), '', 0.0)
-    assert 'What tells the load does not come' in words
+    assert 'No message tells the load' in words
     assert 'slides on to the stop' in words
     tracked = estimate_of(1.0, 3.0)
     tracked.angle_assured = False
