@@ -31,8 +31,8 @@ MEANINGS = {
 """Regime → what it means for an arm; the first that a joint has is what is said of the whole"""
 
 NO_ARM = (
-    'The arm is not drawn: the estimator does not tell its arm_file, or this machine does not have '
-    'that file.'
+    'The arm is not drawn: the estimator does not tell its arm_file, or that file is not on this '
+    'machine.'
 )
 
 HEADS = ('', 'joint', 'regime', 'bend angle', 'can hold at', 'slip margin', 'pressure [Pa]')
