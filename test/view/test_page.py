@@ -212,7 +212,7 @@ def test_a_filtering_estimator_is_shown_with_the_probability_of_each_regime(rig,
         page.wait('model("probabilities").visible && model("bars").data.probability.length == 5')
         assert page.get('probabilities', 'visible')
         assert sum(page.data('bars')['probability']) == pytest.approx(1.0, abs=0.01)
-        page.wait_for_words('held', 'take it back')
+        page.wait_for_words('held', 'may revise it')
         page.wait('model("body").data.angle.length == 1')
 
 

@@ -114,11 +114,11 @@ def test_probabilities_are_those_of_the_estimator_or_none():
 
 def test_what_is_provisional_or_held_against_measurements_is_said():
     estimate = estimate_of(*PUBLISHED)
-    assert 'take it back' not in state_words(estimate, '', 0.0)
+    assert 'may revise it' not in state_words(estimate, '', 0.0)
     assert 'consistency' not in state_words(estimate, '', 0.0)
     estimate.provisional, estimate.consistency = True, 0.25
     words = state_words(estimate, '', 0.0)
-    assert 'take it back' in words
+    assert 'may revise it' in words
     assert '0.250' in words
 
 

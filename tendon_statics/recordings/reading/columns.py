@@ -57,8 +57,15 @@ class Columns(NamedTuple):
     """Places of what is left alone"""
     in_newtons: bool = False
     """Whether the tensions are in N for certain, since their units are said"""
-    notes: tuple[str, ...] = ()
-    """How they were read, for people"""
+    converted: tuple[str, ...] = ()
+    """What was in another unit than that of SI, for people"""
+    unused: tuple[str, ...] = ()
+    """Titles of what is left alone"""
+
+    @property
+    def notes(self) -> list[str]:
+        """How they were read, for people."""
+        return [*self.converted, *_said_unused([of for of in self.unused if of.strip()])]
 
 
 def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> Columns:
@@ -109,8 +116,9 @@ def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> 
     used |= set() if state is None else {state.place}
     others = tuple(place for place in range(len(titles)) if place not in used)
     state_place = None if state is None else state.place
-    notes = *_converted(found, quantities), *_unused([titles[place] for place in others])
-    return Columns(found, time, state_place, others, in_newtons, notes)
+    converted = tuple(_converted(found, quantities))
+    unused = tuple(titles[place] for place in others)
+    return Columns(found, time, state_place, others, in_newtons, converted, unused)
 
 
 def _converted(found: Mapping[str, Column], quantities: Quantities) -> Iterator[str]:
@@ -124,12 +132,10 @@ def _converted(found: Mapping[str, Column], quantities: Quantities) -> Iterator[
         yield f'{" and ".join(names)}: in {unit}, converted to {si}'
 
 
-def _unused(titles: Sequence[str]) -> Iterator[str]:
-    """Say which columns are left alone."""
-    named = [title for title in titles if title.strip()]
-    if named:
-        more = f' and {len(named) - MOST_NAMED} more' if len(named) > MOST_NAMED else ''
-        yield f'not used: {", ".join(named[:MOST_NAMED])}{more}'
+def _said_unused(titles: Sequence[str]) -> Iterator[str]:
+    if titles:
+        more = f' and {len(titles) - MOST_NAMED} more' if len(titles) > MOST_NAMED else ''
+        yield f'not used: {", ".join(titles[:MOST_NAMED])}{more}'
 
 
 def _there(titles: Sequence[str], needed: Sequence[str]) -> str:
