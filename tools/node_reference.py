@@ -88,6 +88,8 @@ MEANINGS_OF_ARM = {
     '~/arm_estimate': 'all of one result, stamped; for every valid message, NaN where not '
     'determined',
     '~/committed_estimate': MEANINGS['~/committed_estimate'],
+    '~/admissible_angles': 'the intervals in which friction can hold each joint while the others '
+    'stay; at most 20 a second, with none while the arm is slack',
     '~/regimes': 'of each joint, for every message, but for one that comes late or twice by its '
     'stamp; who subscribes with `transient_local` hears the last at once',
     '~/tip_force': 'the forces on the end of the last unit along `tip_direction` that all joints '

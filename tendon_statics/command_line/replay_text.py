@@ -94,8 +94,9 @@ def _band_facts(summary: ReplaySummary, confidence: float) -> Facts:
         facts.append(
             (
                 'within it',
-                f'{100.0 * band.within:.4g} % of the measured angles, give or take two '
-                f'deviations of the sensor, {_degrees(band.sensor_spread)}',
+                f'{100.0 * band.within:.4g} % of the measured angles, with the interval widened '
+                'to either side by two standard deviations of the sensor, '
+                f'{_degrees(band.sensor_spread)}',
             )
         )
     return facts

@@ -35,6 +35,12 @@ TITLES = (
 )
 
 
+IN_NEWTONS = (
+    'by their titles these tensions are in a unit of force, and such columns are taken as they '
+    'are: a bias counts only for what the node reads, and for columns without a unit'
+)
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the verb takes."""
     add_recording_options(parser)
@@ -130,6 +136,8 @@ def _text(unit: Unit, slack: Recording, tares: list[CableTare]) -> str:
         for of in tares
     ]
     facts = [('data', slack.name), *(('read', note) for note in slack.notes)]
+    if {'tension_l', 'tension_s'} <= slack.marked:
+        facts.append(('warning', IN_NEWTONS))
     for of in tares:
         if doubt := of.doubt(unit.design.weight):
             facts.append(('warning', doubt))

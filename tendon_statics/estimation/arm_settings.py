@@ -62,7 +62,7 @@ class ArmSettings(Measuring):
         loose = [
             name
             for name, scale in zip(self.arm.cable_names, self.scales, strict=True)
-            if scale.max_tension > MANY_WEIGHTS * weight > 0.0
+            if scale.is_limited and scale.max_tension > MANY_WEIGHTS * weight > 0.0
         ]
         if not loose:
             return []

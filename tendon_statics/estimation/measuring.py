@@ -7,7 +7,7 @@ from functools import cached_property
 
 from ..physics import UPRIGHT, Load
 from ..physics.deviations import BEND_ANGLE_STDDEV, TENSION_STDDEV
-from ..tensions.cable_scale import CableScale
+from ..tensions.cable_scale import DEFAULT_MAX_TENSION, CableScale
 from ..tensions.watch import Plausibility
 
 UPRIGHT_DIRECTION = UPRIGHT.gravity_direction
@@ -80,3 +80,13 @@ class Measuring:
     def doubts(self) -> list[str]:
         """What of the settings does not fit together well, a sentence each."""
         return []
+
+    @property
+    def defaults(self) -> list[str]:
+        """What is better set than left at its default, a sentence each."""
+        if all(scale.is_limited for scale in self.scales):
+            return []
+        return [
+            f'Tensions up to {DEFAULT_MAX_TENSION:g} N are believed, the default of max_tension: '
+            'set it to what the cables are made for, so that wrong readings are found'
+        ]

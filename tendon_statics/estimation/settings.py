@@ -50,7 +50,7 @@ class Settings(Measuring):
         large = {
             name: scale.max_tension
             for name, scale in named.items()
-            if scale.max_tension > MANY_WEIGHTS * weight > 0.0
+            if scale.is_limited and scale.max_tension > MANY_WEIGHTS * weight > 0.0
         }
         if not large:
             return []

@@ -23,9 +23,14 @@ def offer_arm_services(node: ArmEstimator) -> None:
             '~/solve_arm',
             '~/arm_estimate',
             '~/regimes',
+            '~/admissible_angles',
             why=arm_messages.ARM_INTERFACES_MISSING,
         )
         return
+    if arm_messages.ADMISSIBLE_ANGLES_MISSING:
+        say_interfaces_are_missing(
+            node, '~/admissible_angles', why=arm_messages.ADMISSIBLE_ANGLES_MISSING
+        )
     offer(
         node,
         arm_messages.SolveArm,

@@ -127,6 +127,8 @@ class ManagedEstimator(KindOfEstimator[S, E]):
         self.core = self._new_core(settings)
         for doubt in settings.doubts:
             self.get_logger().warning(doubt)
+        for default in settings.defaults:
+            self.get_logger().info(default)
         self.state_label = INACTIVE
         return TransitionCallbackReturn.SUCCESS
 

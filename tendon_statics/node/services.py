@@ -148,8 +148,10 @@ def say_interfaces_are_missing(
     node: ManagedEstimator[Any, Any], *offered: str, why: str = messages.INTERFACES_MISSING
 ) -> None:
     """Warn that a node offers less without the package nested in interfaces/."""
+    *first, last = offered
+    named = f'{", ".join(first)} and {last}' if first else last
     node.get_logger().warning(
-        f'No {", ".join(offered[:-1])} and {offered[-1]}, since tendon_statics_interfaces is not '
+        f'No {named}, since tendon_statics_interfaces is not '
         f'there or older than this ({why}). It is in the folder '
         'interfaces/: colcon build --base-paths . interfaces'
     )

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..files.arm_parameters import ARM_PARAMETERS
 from ..files.known_parameters import said_of_unknown
 from ..physics.calibration.load_cells import AS_MEASURED, LoadCells
-from ..tensions.cable_scale import SLACK_STDDEVS, CableScale, scaled_arrays
+from ..tensions.cable_scale import DEFAULT_MAX_TENSION, SLACK_STDDEVS, CableScale, scaled_arrays
 from ..tensions.reason import Reason
 from ..tensions.watch import Plausibility
 from .arm_recording import ArmRecording
@@ -38,7 +38,8 @@ def of_unit(recording: Recording, unit: Unit) -> Recording:
         *filter(None, [unit.addressed]),
         *unit.unknown,
         *_said(scales, believed, recording, applies, 'design', limited=limited),
-        _slack_said(scales, unit.settings.tension_stddev, unit.parameters),
+        _slack_said(scales, unit.settings.tension_stddev, unit.parameters)
+        + _limit_said(limited=limited),
     ]
     return dataclasses.replace(
         recording,
@@ -68,7 +69,7 @@ def of_arm(
     said = [
         *said_of_unknown(given, (of.name for of in ARM_PARAMETERS)),
         *_said(scales, settings.plausibility, recording, applies, 'parameter', limited=limited),
-        _slack_said(scales, settings.tension_stddev, given),
+        _slack_said(scales, settings.tension_stddev, given) + _limit_said(limited=limited),
     ]
     return dataclasses.replace(
         recording,
@@ -178,4 +179,13 @@ def _slack_said(
             else f'{SLACK_STDDEVS:g} times the tension_stddev of {tension_stddev:g} N'
         )
         for (threshold, is_given), names in by_threshold.items()
+    )
+
+
+def _limit_said(*, limited: bool) -> str:
+    """Say up to which tension all is believed, where no file gives a limit."""
+    return (
+        ''
+        if limited
+        else f'; tensions up to {DEFAULT_MAX_TENSION:g} N are believed, as no max_tension is given'
     )

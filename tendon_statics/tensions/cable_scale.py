@@ -41,6 +41,11 @@ class CableScale(NamedTuple):
         return self.gain == 1.0 and self.bias == 0.0
 
     @property
+    def is_limited(self) -> bool:
+        """Whether somebody has said the largest plausible tension."""
+        return self.max_tension != DEFAULT_MAX_TENSION
+
+    @property
     def lowest(self) -> float:
         """Lowest reading in N of a slack cable; below it a tension is negative."""
         return -RELEASE * self.slack_threshold

@@ -47,12 +47,12 @@ class ArmPanels:
         if arm is None:
             self._arm.clear()
         else:
-            self._arm.draw(arm, estimate, present=is_present(watch.said, age))
+            self._arm.draw(arm, estimate, watch.admissible, present=is_present(watch.said, age))
 
     def say(self, watch: Watch, age: float) -> str:
         """Have the table say what the newest estimate is, and return what to say of the whole."""
         estimate, is_drawn = watch.estimate, _known_arm(watch) is not None
-        joints = joints_table(estimate, present=is_present(watch.said, age))
+        joints = joints_table(estimate, watch.admissible, present=is_present(watch.said, age))
         if joints != self._joints.text:
             self._joints.text = joints
         return arm_state_words(estimate, watch.said, age, is_drawn=is_drawn)

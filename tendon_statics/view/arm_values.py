@@ -31,6 +31,8 @@ class JointSaid(NamedTuple):
     slip_margin: float
     pressure: float
     """In Pa"""
+    bands: tuple[tuple[float, float], ...] | None
+    """In rad, where friction can hold it; None where that is not said"""
 
 
 class TipSaid(NamedTuple):
@@ -40,10 +42,15 @@ class TipSaid(NamedTuple):
     interval: tuple[float, float] | None
 
 
-def joints_said(estimate: Any) -> list[JointSaid]:
+def joints_said(estimate: Any, admissible: Any = None) -> list[JointSaid]:
     """Return what is said of each joint, from the base on.
 
     Whoever publishes the message: what it leaves out is not determined.
+
+    Parameters
+    ----------
+    admissible
+        The message ``AdmissibleAngles`` that goes with the estimate, None if there is none.
     """
     found = []
     for place, name in enumerate(estimate.joint_names):
@@ -65,9 +72,23 @@ def joints_said(estimate: Any) -> list[JointSaid]:
                 of(estimate.angles_assured) == 1.0,
                 of(estimate.slip_margins),
                 of(estimate.pressures),
+                None if regime == Regime.SLACK.value else _bands(admissible, name),
             )
         )
     return found
+
+
+def _bands(admissible: Any, name: str) -> tuple[tuple[float, float], ...] | None:
+    names = [] if admissible is None else list(admissible.joint_names)
+    if name not in names:
+        return None
+    number = 1 + names.index(name)
+    found = zip(admissible.joints, admissible.lows, admissible.highs, strict=False)
+    return tuple(
+        (low, high)
+        for joint, low, high in found
+        if joint == number and math.isfinite(low) and math.isfinite(high)
+    )
 
 
 def is_of_arms(regime: str) -> bool:

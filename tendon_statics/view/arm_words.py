@@ -11,22 +11,31 @@ from ..physics import Regime
 from .arm_time_figures import line_colours
 from .arm_values import JointSaid, TipSaid, joints_said, tip_said
 from .estimate_values import colour_of_regime, regime_named
-from .words import REGIMES, angle, bullets, doubts_of_all, headline, number, table
+from .words import (
+    REGIMES,
+    angle,
+    bullets,
+    degrees_between,
+    doubts_of_all,
+    headline,
+    number,
+    table,
+)
 
 MEANINGS = {
     Regime.SLACK: 'A joint has no tension on one side: nothing is said of any joint.',
-    Regime.DRIVEN_TO_STOP: 'Pressed on its stop.',
-    Regime.SLIPPING: 'Has slipped to where friction holds it again.',
+    Regime.DRIVEN_TO_STOP: 'Pressed against the stop.',
+    Regime.SLIPPING: 'Slipped to where friction holds again.',
     Regime.HELD: 'Friction holds every joint where it is.',
 }
 """Regime → what it means for an arm; the first that a joint has is what is said of the whole"""
 
 NO_ARM = (
-    'It does not tell its arm_file, or that is not to be had on the machine of this page; without '
-    'it the arm is not drawn.'
+    'The arm is not drawn: the estimator does not tell its arm_file, or that file is not on this '
+    'machine.'
 )
 
-HEADS = ('', 'joint', 'regime', 'bend angle', 'slip margin', 'pressure [Pa]')
+HEADS = ('', 'joint', 'regime', 'bend angle', 'can hold at', 'slip margin', 'pressure [Pa]')
 
 
 def arm_state_words(estimate: Any, said: str, age: float, *, is_drawn: bool = True) -> str:
@@ -50,9 +59,15 @@ def arm_state_words(estimate: Any, said: str, age: float, *, is_drawn: bool = Tr
     return head + table(_numbers(estimate)) + bullets(doubts)
 
 
-def joints_table(estimate: Any, *, present: bool) -> str:
-    """Say where each joint is, from the base on, with the colours of its lines and its regime."""
-    joints = joints_said(estimate)
+def joints_table(estimate: Any, admissible: Any = None, *, present: bool) -> str:
+    """Say where each joint is, from the base on, with the colours of its lines and its regime.
+
+    Parameters
+    ----------
+    admissible
+        As of `joints_said`.
+    """
+    joints = joints_said(estimate, admissible)
     heads = ''.join(f'<th>{head}</th>' for head in HEADS)
     rows = ''.join(
         f'<tr>{"".join(f"<td>{cell}</td>" for cell in _cells(joint, line, present=present))}</tr>'
@@ -63,18 +78,26 @@ def joints_table(estimate: Any, *, present: bool) -> str:
 
 def _cells(joint: JointSaid, line: str, *, present: bool) -> Iterator[str]:
     yield f'<span style="color:{line}">&#9473;</span>'
-    yield escape(joint.name)
+    yield escape(joint.name).replace('_', '_<wbr>')
     regime = regime_named(joint.regime)
     colour = colour_of_regime(regime, present=present)
     name = REGIMES[regime][0] if regime else joint.regime
-    share = f' <small>{100.0 * joint.probability:.0f} %</small>'
+    share = f' <small>{100.0 * joint.probability:.0f}&nbsp;%</small>'
     yield (
-        f'<span style="color:{colour}">&#9679;</span> {escape(name)}'
+        f'<span style="color:{colour}">&#9679;</span>&nbsp;{escape(name)}'
         f'{share if math.isfinite(joint.probability) else ""}'
     )
-    yield angle(joint.angle, joint.interval, '<br>')
+    yield angle(joint.angle, joint.interval, '<br>').replace(' to ', '&nbsp;to ')
+    yield _bands(joint)
     yield number(joint.slip_margin, '+.3f', '')
     yield number(joint.pressure, '.0f', '')
+
+
+def _bands(joint: JointSaid) -> str:
+    if joint.bands is None:
+        return ''
+    said = '<br>'.join(map(degrees_between, joint.bands)) or 'nowhere'
+    return f'<small>{said.replace(" to ", "&nbsp;to ")}</small>'
 
 
 def _worst(joints: Sequence[JointSaid]) -> Regime | None:

@@ -12,6 +12,7 @@ from tendon_statics_interfaces.msg import ArmEstimate, Estimate, JointRegimes
 from ..files.arm_settings import arm_in
 from ..files.estimator_parameters import DESIGN
 from ..files.parameter_kinds import SettingError
+from ..node.outputs.arm_messages import AdmissibleAngles
 from ..physics import DesignError, JointDesign, design_fields
 from .arm_values import arm_names, arm_sample
 from .unit_sample import UNIT_NAMES, unit_sample
@@ -37,6 +38,9 @@ class Kind:
     """Returns the names of what is drawn over time of an estimate"""
     sample: Callable[[Any], Mapping[str, float]]
     """Returns the values of that"""
+    admissible: type | None = None
+    """Of the messages on ``~/admissible_angles`` that say where friction can hold it, where the
+    estimates do not"""
 
 
 def _design(values: Mapping[str, Any]) -> JointDesign | None:
@@ -76,6 +80,7 @@ ARM = Kind(
     model_of=_arm,
     names_of=arm_names,
     sample=arm_sample,
+    admissible=AdmissibleAngles,
 )
 
 KINDS = (UNIT, ARM)

@@ -37,6 +37,9 @@ class Watch:
         """The newest that came, None before the first"""
         self.estimated_at = -math.inf
         """When it came, on the clock of `time.monotonic`"""
+        self.admissible: Any = None
+        """What came with it on where friction can hold an arm; None if nothing did"""
+        self._admissible_at = -math.inf
         self.said = ''
         """``invalid`` or ``stale`` where the estimator says that in place of an estimate"""
         self.diagnostics: DiagnosticStatus | None = None
@@ -46,6 +49,10 @@ class Watch:
         self._kind = kind = sighting.kind
         self._estimates = NewestMessages(node, kind.estimates, sighting.topic)
         self._regimes = KeptMessages(node, kind.regimes, f'{sighting.name}/{kind.regimes_on}')
+        self._admissible: NewestMessages | None = None
+        if kind.admissible is not None:
+            topic = f'{sighting.name}/admissible_angles'
+            self._admissible = NewestMessages(node, kind.admissible, topic)
         # Room for the estimators of a rig, which share the topic.
         self._diagnostics = NewestMessages(node, DiagnosticArray, '/diagnostics', depth=50)
         self._design = DesignQuestion(node, sighting.name, kind)
@@ -63,7 +70,12 @@ class Watch:
         for message in self._regimes.take():
             regime = self._kind.first_regime(message)
             self.said = regime if regime in (INVALID, STALE) else ''
+        for message in self._admissible.take() if self._admissible is not None else ():
+            self.admissible = message
+            self._admissible_at = now
         for message in self._estimates.take():
+            if now - self._admissible_at > SILENCE:
+                self.admissible = None
             self.estimate = message
             self.estimated_at = now
             self._ended = False
@@ -87,8 +99,9 @@ class Watch:
 
     def close(self) -> None:
         """Hear no more."""
-        for topic in (self._estimates, self._regimes, self._diagnostics):
-            topic.close()
+        for topic in (self._estimates, self._regimes, self._admissible, self._diagnostics):
+            if topic is not None:
+                topic.close()
         self._design.close()
 
 

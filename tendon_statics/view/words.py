@@ -46,7 +46,7 @@ STYLE = """
   b { padding: 0.1rem 0.5rem; border-radius: 4px; color: #fff; background: #777777; }
   .joints { overflow-x: auto; } .joints table { font-size: 0.8rem; }
   .joints th, .joints td { padding: 0.15rem 0.4rem 0.15rem 0; vertical-align: top; }
-  .joints small { padding: 0; white-space: nowrap; }
+  .joints th { font-size: 0.7rem; } .joints small { padding: 0; }
   .level-ok { background: #00734f; } .level-warn { background: #9a6a00; }
   .level-error { background: #b34700; }
 """
@@ -55,7 +55,7 @@ STYLE = """
 NOT_DETERMINED = 'Where in the band it is, the tensions alone do not tell.'
 
 WITHOUT_ESTIMATE = {
-    INVALID: 'The newest reading has no tensions that the model takes.',
+    INVALID: 'The newest reading has no valid tensions.',
     STALE: 'No valid tensions come any more.',
     '': 'Nothing comes from it any more.',
 }
@@ -63,7 +63,7 @@ WITHOUT_ESTIMATE = {
 
 LAST_KNOWN = 'What is drawn and listed is the last that was known.'
 
-NO_DESIGN = 'It does not tell the design of its unit, without which the unit is not drawn.'
+NO_DESIGN = 'The unit is not drawn, since the estimator does not tell its design.'
 
 LEVELS = ('OK', 'WARN', 'ERROR', 'STALE')
 """Words for the levels of ``/diagnostics``, by their numbers"""
@@ -92,11 +92,11 @@ def waiting(name: str, said: str) -> str:
     if said:
         return (
             f'<h2 style="color:{GREY}">{escape(said)}</h2><p>{escape(WITHOUT_ESTIMATE[said])} '
-            'Since this page was opened no estimate came.</p>'
+            'No estimate has come since this page was opened.</p>'
         )
     return (
-        f'<h2 style="color:{GREY}">waiting</h2><p>{escape(name)} is there, and no estimate of '
-        'it came yet: do tensions come, and is the node active?</p>'
+        f'<h2 style="color:{GREY}">waiting</h2><p>{escape(name)} is there, but has sent no '
+        'estimate yet: do tensions come, and is the node active?</p>'
     )
 
 
@@ -178,9 +178,9 @@ def number(value: float, form: str, unit: str) -> str:
 def doubts_of_all(estimate: Any, *, has_angle: bool) -> Iterator[str]:
     """Say what casts doubt on an estimate of a unit and of an arm alike."""
     if not estimate.load_assured:
-        yield 'What tells the load does not come; the last that was known is taken.'
+        yield 'No message tells the load at present; the last known load is used.'
     if has_angle and estimate.provisional:
-        yield 'Provisional: readings to come may take it back.'
+        yield 'Provisional: later readings may revise it.'
 
 
 def _doubts(estimate: Any) -> Iterator[str]:

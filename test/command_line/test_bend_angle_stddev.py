@@ -17,7 +17,7 @@ TIP = ('--tension-l', 1, '--tension-s', 1.9, '--bend-angle-deg', 5, '--direction
 VERBS = {
     'calibrate': (('calibrate', SESSION, '--motion-step-deg', 3), 'noise         0.01 N, {} deg'),
     'tip-force': (('tip-force', *TIP, '--distance', 0.02), 'on each tension, {} deg'),
-    'replay': (('replay', *FILTERED), 'two deviations of the sensor, {} deg'),
+    'replay': (('replay', *FILTERED), 'two standard deviations of the sensor, {} deg'),
 }
 
 
@@ -59,7 +59,7 @@ def test_the_report_s_share_within_the_interval_is_of_the_stated_sensor(tmp_path
         *('--tension-stddev', 0.01, '--output', output),
     )
     assert done.returncode == 0, done.stderr
-    assert 'two deviations of the sensor, 0.58 deg' in output.read_text()
+    assert 'two standard deviations of the sensor, 0.58 deg' in output.read_text()
 
 
 def test_node_and_library_have_the_same_default():

@@ -145,13 +145,22 @@ def test_it_is_stale_after_the_timeout_once():
 
 def test_a_largest_tension_that_fits_no_such_unit_is_said():
     weight = PRELIMINARY.weight
-    (of_both,) = SETTINGS.doubts
-    named = 'cable_l.max_tension and cable_s.max_tension are 1000 N, up to'
-    assert of_both.startswith(f'{named} {1000 / weight:.3g} times the weight')
-    fitting = CableScale(max_tension=20.0)
-    (of_s,) = dataclasses.replace(SETTINGS, cable_l=fitting).doubts
-    assert of_s.startswith('cable_s.max_tension is 1000 N')
+    large, fitting = CableScale(max_tension=500.0), CableScale(max_tension=20.0)
+    (of_both,) = dataclasses.replace(SETTINGS, cable_l=large, cable_s=large).doubts
+    named = 'cable_l.max_tension and cable_s.max_tension are 500 N, up to'
+    assert of_both.startswith(f'{named} {500 / weight:.3g} times the weight')
+    (of_s,) = dataclasses.replace(SETTINGS, cable_l=fitting, cable_s=large).doubts
+    assert of_s.startswith('cable_s.max_tension is 500 N')
     assert dataclasses.replace(SETTINGS, cable_l=fitting, cable_s=fitting).doubts == []
+
+
+def test_a_largest_tension_that_nobody_has_set_is_no_doubt_and_is_told():
+    fitting = CableScale(max_tension=20.0)
+    assert SETTINGS.doubts == []
+    (of_default,) = SETTINGS.defaults
+    assert of_default.startswith('Tensions up to 1000 N are believed')
+    assert dataclasses.replace(SETTINGS, cable_l=fitting).defaults == [of_default]
+    assert dataclasses.replace(SETTINGS, cable_l=fitting, cable_s=fitting).defaults == []
 
 
 @pytest.mark.parametrize('estimation', ['tracking', 'filtering'])

@@ -4,7 +4,9 @@ import csv
 import json
 import math
 import random
+import sys
 import time
+from contextlib import contextmanager
 
 import pytest
 from arm_client import ArmClient, array, same, values
@@ -16,10 +18,12 @@ from rclpy.parameter import Parameter
 from ros_programs import Program, spinning, wait_for
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
+from tendon_statics_interfaces.msg import AdmissibleAngles
 from tendon_statics_interfaces.srv import SolveArm
 
 from tendon_statics import ArmTracker, Load, StickSlipTracker, load_arm
 from tendon_statics.files.installed_files import installed_config
+from tendon_statics.node.outputs.publishers import SLOW_PERIOD
 
 ARM = load_arm(installed_config('arm.yaml'))
 NAMES = tuple(f'arm_joint_{number}' for number in range(1, 6))
@@ -103,6 +107,76 @@ def test_a_session_gives_what_the_tracker_says_to_the_last_bit(arm):
         assert same(ours.position, theirs.bend_angles)
     for ours, theirs in zip(arm.regimes, expected, strict=False):
         assert list(ours.regimes) == [regime.value for regime in theirs.regimes]
+
+
+@contextmanager
+def admissible_angles(arm):
+    """What comes on where friction can hold the joints, while somebody listens."""
+    came = []
+    topic = 'arm_estimator/admissible_angles'
+    subscription = arm.create_subscription(AdmissibleAngles, topic, came.append, 1000)
+    try:
+        wait_for('the publisher', lambda: subscription.get_publisher_count() > 0)
+
+        def heard():
+            arm.send_even()
+            return came
+
+        wait_for('the first', heard)
+        yield came
+    finally:
+        arm.destroy_subscription(subscription)
+
+
+def bands_told(message):
+    bands = [[] for _ in message.joint_names]
+    for joint, low, high in zip(message.joints, message.lows, message.highs, strict=True):
+        bands[joint - 1].append((low, high))
+    return bands
+
+
+def test_where_friction_can_hold_each_joint_is_told_as_the_tracker_has_it(arm):
+    with admissible_angles(arm) as came:
+        for row in (PULLED, EVEN | {'l_tip': 0.0}):
+            estimate, state = arm.answer(row), followed([EVEN, PULLED, row])[-1]
+            expected = [[] if state.is_slack else of.admissible_angles for of in state.joints]
+            assert any(expected) is not state.is_slack
+
+            def told(row=row, expected=expected):
+                arm.send(row)  # again, since not every answer is told
+                return bands_told(came[-1]) == expected
+
+            wait_for('the bands', told)
+            assert list(came[-1].joint_names) == list(NAMES)
+            assert came[-1].header.frame_id == estimate.header.frame_id
+
+
+def test_where_friction_can_hold_is_told_no_more_often_than_it_is_to_be_looked_at(arm):
+    with admissible_angles(arm) as came:
+        before, start = len(came), time.monotonic()
+        for _ in range(200):
+            arm.answer(HELD)
+        assert len(came) - before <= 1 + (time.monotonic() - start) / SLOW_PERIOD
+        assert len(came) - before < 200
+
+
+def test_beside_interfaces_without_the_newest_message_it_runs_and_says_how_to_build_them(client):
+    code = (
+        'import sys, tendon_statics_interfaces.msg as msg\n'
+        'del msg.AdmissibleAngles\n'
+        'from tendon_statics.node.program import arm_estimator\n'
+        'sys.exit(arm_estimator())\n'
+    )
+    with Program.running_command([sys.executable, '-c', code]) as program:
+        client.connect(program)
+        client.settle()
+        topics = dict(client.get_topic_names_and_types())
+        assert '/arm_estimator/arm_estimate' in topics
+        assert '/arm_estimator/admissible_angles' not in topics
+        said = program.output()
+        assert said.count('colcon build --base-paths . interfaces') == 1
+        assert 'No ~/admissible_angles, since' in said
+        assert program.end() == 0
 
 
 def test_the_pose_of_the_tip_has_the_covariance_of_the_tracker(arm):

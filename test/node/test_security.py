@@ -165,6 +165,7 @@ EXTRA = {
         'subscribe': {
             *('/diagnostics', '/estimator/estimate', '/estimator/regime'),
             *('/arm_estimator/arm_estimate', '/arm_estimator/regimes'),
+            '/arm_estimator/admissible_angles',
         },
         'request': {'/estimator/get_parameters', '/arm_estimator/get_parameters'},
     },

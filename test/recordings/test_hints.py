@@ -8,7 +8,7 @@ from designs import PRELIMINARY
 from programs import run
 from slips import recording, session, slipping_samples
 
-from tendon_statics import Recording, RecordingError, load_recording
+from tendon_statics import Recording, RecordingError, default_design_path, load_recording
 from tendon_statics.estimation.settings import Settings
 from tendon_statics.files.installed_files import installed_config
 from tendon_statics.recordings.hints import hints
@@ -255,6 +255,12 @@ def test_a_largest_tension_that_does_not_fit_the_unit_is_said_once_as_the_node_d
 ):
     path, output = tmp_path / 'run.csv', tmp_path / 'out.html'
     path.write_text('time,tension_l,tension_s,bend_angle\n0,1,1.5,0.1\n0.1,1,1.5,0.1\n')
-    done = run(verb, path, *(('--output', output) if verb == 'report' else ()))
-    said = done.stdout + done.stderr + (output.read_text() if verb == 'report' else '')
-    assert said.count(SETTINGS.doubts[0]) == 1
+    unit = tmp_path / 'unit.yaml'
+    text = default_design_path().read_text(encoding='utf-8')
+    asked = (verb, path, *(('--output', output) if verb == 'report' else ()))
+    for limit, warned, told in (('', 0, 1), ('cable_l.max_tension: 500.0', 1, 0)):
+        unit.write_text(text.replace('    design:', f'    {limit}\n    design:'))
+        done = run(*asked, '--design', unit)
+        said = done.stdout + done.stderr + (output.read_text() if verb == 'report' else '')
+        assert said.count('times the weight of the unit: a wrong reading') == warned
+        assert said.count('tensions up to 1000 N are believed, as no max_tension is') == told

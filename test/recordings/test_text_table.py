@@ -54,11 +54,19 @@ LABVIEW = (
         ('time,tension_l,tension_s\ns,N,N\n0,1,1.5\n1,1,1.6\n', ('units: those of line 2',)),
         (
             'time,tension_l,tension_s\nseconds,Millinewton,Newton\n0,1000,1.5\n1,1000,1.6\n',
-            ('units: those of line 2', 'time [seconds], in s'),
+            (
+                'units: those of line 2',
+                'tension_l: in mN, converted to N',
+                'time [seconds], in s',
+            ),
         ),
         (
             'time,tension_l,tension_s,note\n[ms],[mN],[mN],\n0,1000,1500,a\n1000,1000,1600,b\n',
-            ('units: those of line 2',),
+            (
+                'units: those of line 2',
+                'tension_l and tension_s: in mN, converted to N',
+                'not used: note',
+            ),
         ),
         (
             LABVIEW.format(name='Tab', decimal=',', columns='One')
@@ -105,6 +113,7 @@ def test_the_preamble_of_labview_tells_steps_of_time_and_units(file):
     assert recording.notes[1:] == (
         'tension_l: in mN, by Y_Unit_Label',
         'tension_s: in N, by Y_Unit_Label',
+        'tension_l: in mN, converted to N',
         'time: 0.01 s from row to row, by Delta_X',
     )
     rate = load_recording(file(text, 'run.lvm'), table=TableOptions(rate=50.0))
@@ -426,3 +435,22 @@ def test_a_row_of_units_of_which_one_is_not_known_asks_for_that(tmp_path):
     done = run('replay', data, '--units', 'tension=mN')
     assert done.returncode == 0, done.stderr
     assert 'units: those of line 2' in done.stdout
+
+
+def test_many_columns_that_are_not_used_are_counted(file):
+    titles = ','.join(f'extra_{number}' for number in range(10))
+    rows = ''.join(f'{row},1,{1.5 + 0.1 * row}{",7" * 10}\n' for row in range(2))
+    recording = load_recording(file(f'time,tension_l,tension_s,{titles}\n{rows}'))
+    named = ', '.join(f'extra_{number}' for number in range(8))
+    assert recording.notes == (f'not used: {named} and 2 more',)
+
+
+def test_a_unit_that_an_option_says_is_told_too(file):
+    text = 'time,tension_l,tension_s,bend_angle\n0,1000,1500,10\n1,1000,1600,11\n'
+    units = {'tension': 'mN', 'bend_angle': 'deg'}
+    recording = load_recording(file(text), table=TableOptions(units=units)).whole()
+    assert recording.tensions() == PAIRS
+    assert recording.notes == (
+        'tension_l and tension_s: in mN, converted to N',
+        'bend_angle: in deg, converted to rad',
+    )

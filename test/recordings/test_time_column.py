@@ -157,6 +157,7 @@ def test_timestamps_in_parquet_are_read(tmp_path, title, values):
     assert recording.time_origin == SECONDS * 10**9
     assert recording.time[[0, 2]].tolist() == [0.0, 1.0]
     assert np.isnan(recording.time[1])
+    assert not any(note.startswith('not used') for note in recording.notes)
 
 
 def test_durations_in_parquet_are_read(tmp_path):

@@ -130,3 +130,22 @@ def test_the_verb_warns_of_cables_that_may_have_been_taut(tmp_path):
     assert 'warning       cable_l read 1' in done.stdout
     assert 'cable_s read' not in done.stdout
     assert_refused(run('tare', path, '--start', 1), 'it has no times')
+
+
+@pytest.mark.parametrize(
+    ('titles', 'is_warned'),
+    [
+        ('tension_l,tension_s', False),
+        ('tension_l [N],tension_s [N]', True),
+        ('tension_l [mN],tension_s [mN]', True),
+    ],
+)
+def test_the_verb_warns_where_the_columns_are_in_newtons_and_take_no_bias(
+    titles, is_warned, tmp_path
+):
+    path = tmp_path / 'slack.csv'
+    rows = ''.join(f'{of},{of}\n' for of in still(0.01))
+    path.write_text(f'{titles}\n{rows}')
+    done = run('tare', path)
+    assert done.returncode == 0, done.stderr
+    assert ('a bias counts only for what the node reads' in done.stdout) == is_warned

@@ -81,6 +81,20 @@ def test_the_arm_is_drawn_where_it_is(arm_page):
     assert centres[-1, 0] > 0.05  # or it would prove little
 
 
+def test_where_friction_can_hold_each_joint_is_drawn_and_said(arm_page):
+    state = ArmTracker(ARM).update(TENSIONS)
+    bands = [of.admissible_angles for of in state.joints]
+    assert all(bands)
+    arm_page.wait('model("drawn_bands").data.start.length > 0')
+    drawn, tilt, expected = arm_page.data('drawn_bands'), 0.0, []
+    for of_joint, angle in zip(bands, state.bend_angles, strict=True):
+        expected += [0.5 * np.pi - tilt - low for low, _ in of_joint]
+        tilt += angle
+    assert drawn['end'] == pytest.approx(expected)
+    for low, high in np.degrees(np.concatenate(bands)):
+        arm_page.wait_for_words(f'{low:.1f} to {high:.1f}°')
+
+
 def test_joints_and_tip_are_said_in_words(arm_page):
     state = ArmTracker(ARM).update(TENSIONS)
     arm_page.wait_for_words('arm_joint_1', 'arm_joint_5', f'{1e3 * state.tip.x:.2f} mm')

@@ -4,7 +4,7 @@ import math
 
 import pytest
 from std_msgs.msg import Header
-from tendon_statics_interfaces.msg import ArmEstimate
+from tendon_statics_interfaces.msg import AdmissibleAngles, ArmEstimate
 
 from tendon_statics import ArmFilter, ArmTracker, Load, Regime, load_arm
 from tendon_statics.estimation.arm_estimate import ArmEstimate as Found
@@ -13,7 +13,7 @@ from tendon_statics.estimation.estimate import KnownLoad
 from tendon_statics.estimation.filtered_arm_estimate import FilteredArmEstimate
 from tendon_statics.estimation.regimes import INVALID, REGIME_COLOURS, STALE
 from tendon_statics.files.installed_files import installed_config
-from tendon_statics.node.outputs.arm_messages import fill_arm_estimate
+from tendon_statics.node.outputs.arm_messages import fill_admissible_angles, fill_arm_estimate
 from tendon_statics.view.arm_figure import ArmFigure
 from tendon_statics.view.arm_values import arm_names, arm_sample, is_of, joints_said
 from tendon_statics.view.arm_words import NO_ARM, arm_state_words, joints_table
@@ -30,17 +30,24 @@ SLACK = {**EVEN, 'l_tip': 0.0}
 SETTINGS = ArmSettings(ARM, NAMES)
 
 
-def tracked(*rows):
+def found_by_tracking(*rows):
     tracker = ArmTracker(ARM)
     state = [tracker.update(row) for row in rows][-1]
-    return fill_arm_estimate(ArmEstimate(), Found(state, KnownLoad(Load()), SETTINGS), Header())
+    return Found(state, KnownLoad(Load()), SETTINGS)
+
+
+def found_by_filtering(*rows):
+    arm = ArmFilter(ARM, tension_stddev=0.02)
+    state = [arm.update(row, time=0.01 * number) for number, row in enumerate(rows)][-1]
+    return FilteredArmEstimate(state, KnownLoad(Load()), SETTINGS, 0.01 * len(rows))
+
+
+def tracked(*rows):
+    return fill_arm_estimate(ArmEstimate(), found_by_tracking(*rows), Header())
 
 
 def filtered(*rows):
-    arm = ArmFilter(ARM, tension_stddev=0.02)
-    state = [arm.update(row, time=0.01 * number) for number, row in enumerate(rows)][-1]
-    found = FilteredArmEstimate(state, KnownLoad(Load()), SETTINGS, 0.01 * len(rows))
-    return fill_arm_estimate(ArmEstimate(), found, Header())
+    return fill_arm_estimate(ArmEstimate(), found_by_filtering(*rows), Header())
 
 
 STATES = {
@@ -126,7 +133,7 @@ def test_the_probability_of_a_regime_is_that_of_the_message():
     for place, joint in enumerate(joints_said(estimate)):
         assert joint.regime == 'held'
         assert joint.probability == estimate.probabilities_held[place]
-    assert '100 %' in joints_table(estimate, present=True)
+    assert '100&nbsp;%' in joints_table(estimate, present=True)
 
 
 def test_another_arm_is_not_drawn_for_the_one_that_speaks():
@@ -157,3 +164,45 @@ def test_gravity_is_an_arrow_in_the_corner_and_the_force_one_that_ends_at_the_ti
     assert (arrows['x1'][1], arrows['z1'][1]) == (units['x1'][-1], units['z1'][-1])
     assert arrows['x0'][1] > arrows['x1'][1]
     assert arrows['z0'][1] == arrows['z1'][1]
+
+
+@pytest.mark.parametrize('find', [found_by_tracking, found_by_filtering])
+@pytest.mark.parametrize('rows', [[EVEN], [EVEN, BENT], [DRIVEN], [BENT, SLACK]])
+def test_where_friction_can_hold_each_joint_is_drawn_and_said_as_the_model_has_it(find, rows):
+    found, figure = find(*rows), ArmFigure()
+    estimate = fill_arm_estimate(ArmEstimate(), found, Header())
+    admissible = fill_admissible_angles(AdmissibleAngles(), found, Header())
+    figure.draw(ARM, estimate, admissible)
+    drawn = figure._sources['bands'].data
+    table = joints_table(estimate, admissible, present=True)
+    if found.state.is_slack:
+        assert not drawn['start']
+        assert 'nowhere' not in table
+        return
+    expected, colours, tilt = [], [], 0.0
+    for bands, regime, angle in zip(found.bands, found.regimes, found.bend_angles, strict=True):
+        expected += [(tilt + low, tilt + high) for low, high in bands]
+        colours += [REGIME_COLOURS[regime]] * len(bands)
+        tilt += angle
+        for low, high in bands:
+            assert f'{math.degrees(low):.1f}&nbsp;to {math.degrees(high):.1f}°' in table
+    # The browser counts from X, and to the left.
+    ends = zip(drawn['end'], drawn['start'], strict=True)
+    assert [tuple(0.5 * math.pi - end for end in pair) for pair in ends] == [
+        pytest.approx(pair) for pair in expected
+    ]
+    assert drawn['colour'] == colours
+    assert table.count('nowhere') == sum(not bands for bands in found.bands)
+
+
+def test_bands_that_nobody_tells_are_neither_drawn_nor_said_to_be_nowhere():
+    estimate, figure = tracked(BENT), ArmFigure()
+    for admissible in (
+        *(None, AdmissibleAngles(), AdmissibleAngles(joint_names=['of', 'another'])),
+        # From whoever publishes the type.
+        AdmissibleAngles(joint_names=list(NAMES), joints=[0, 6], lows=[0.1], highs=[math.nan]),
+    ):
+        figure.draw(ARM, estimate, admissible)
+        assert not figure._sources['bands'].data['start']
+        said = list(admissible.joint_names) == list(NAMES) if admissible else False
+        assert joints_table(estimate, admissible, present=True).count('nowhere') == 5 * said

@@ -212,7 +212,7 @@ def test_a_filtering_estimator_is_shown_with_the_probability_of_each_regime(rig,
         page.wait('model("probabilities").visible && model("bars").data.probability.length == 5')
         assert page.get('probabilities', 'visible')
         assert sum(page.data('bars')['probability']) == pytest.approx(1.0, abs=0.01)
-        page.wait_for_words('held', 'take it back')
+        page.wait_for_words('held', 'may revise it')
         page.wait('model("body").data.angle.length == 1')
 
 
@@ -266,7 +266,7 @@ def test_invalid_and_stale_input_is_said(rig, browser):
     with rig.running('third', 'estimator'), LivePage(browser, rig.url) as page:
         page.wait('model("estimator").options.includes("/third/estimator")')
         page.choose('/third/estimator')
-        page.wait_for_words('no estimate of it came yet')
+        page.wait_for_words('has sent no estimate yet')
         with rig.driving('third', tensions=PUBLISHED):
             page.wait_for_words('17.14°')
         page.wait_for_words('No valid tensions come any more', 'STALE')
@@ -285,7 +285,7 @@ def test_a_page_that_is_opened_later_hears_what_holds(rig, browser):
         with LivePage(browser, rig.url) as page:
             page.wait('model("estimator").options.includes("/fifth/estimator")')
             page.choose('/fifth/estimator')
-            page.wait_for_words('No valid tensions come any more', 'no estimate came')
+            page.wait_for_words('No valid tensions come any more', 'No estimate has come')
 
 
 def test_a_regime_that_nobody_keeps_is_heard_too(rig, browser):
@@ -293,7 +293,7 @@ def test_a_regime_that_nobody_keeps_is_heard_too(rig, browser):
     with rig.running('sixth', 'estimator', *volatile), LivePage(browser, rig.url) as page:
         page.wait('model("estimator").options.includes("/sixth/estimator")')
         page.choose('/sixth/estimator')
-        page.wait_for_words('no estimate of it came yet')
+        page.wait_for_words('has sent no estimate yet')
         with rig.driving('sixth', tensions=PUBLISHED):
             page.wait_for_words('17.14°')
         page.wait_for_words('No valid tensions come any more')

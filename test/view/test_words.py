@@ -40,7 +40,7 @@ def test_what_is_not_determined_has_no_number():
 
 def test_doubts_are_named():
     words = state_words(estimate_of(*PUBLISHED, load_assured=False), '', 0.0)
-    assert 'What tells the load does not come' in words
+    assert 'No message tells the load' in words
     assert 'slides on to the stop' in words
     tracked = estimate_of(1.0, 3.0)
     tracked.angle_assured = False
@@ -114,11 +114,11 @@ def test_probabilities_are_those_of_the_estimator_or_none():
 
 def test_what_is_provisional_or_held_against_measurements_is_said():
     estimate = estimate_of(*PUBLISHED)
-    assert 'take it back' not in state_words(estimate, '', 0.0)
+    assert 'may revise it' not in state_words(estimate, '', 0.0)
     assert 'consistency' not in state_words(estimate, '', 0.0)
     estimate.provisional, estimate.consistency = True, 0.25
     words = state_words(estimate, '', 0.0)
-    assert 'take it back' in words
+    assert 'may revise it' in words
     assert '0.250' in words
 
 

@@ -45,6 +45,11 @@ def _fill_arm_estimate(message: arm_messages.ArmEstimate, finding: Finding) -> b
     return True
 
 
+def _fill_admissible_angles(message: arm_messages.AdmissibleAngles, finding: Finding) -> bool:
+    arm_messages.fill_admissible_angles(message, finding.estimate, finding.header)
+    return True
+
+
 ARM_FILLS: dict[str, tuple[type, Fill]] = {
     '~/joint_states': (JointState, _fill_joint_states),
     '~/tip_pose': (PoseWithCovarianceStamped, _fill_tip_pose),
@@ -59,6 +64,16 @@ if not arm_messages.ARM_INTERFACES_MISSING:
     }
 
 
+SLOW_ARM_FILLS: dict[str, tuple[type, Fill]] = {}
+"""The same of what takes a tenth of a millisecond for each joint"""
+
+if not arm_messages.ADMISSIBLE_ANGLES_MISSING:
+    SLOW_ARM_FILLS['~/admissible_angles'] = (
+        arm_messages.AdmissibleAngles,
+        _fill_admissible_angles,
+    )
+
+
 def arm_topics(joint_names: tuple[str, ...]) -> Topics:
     """Return what the estimator of an arm whose joints have these names says of it."""
 
@@ -66,4 +81,11 @@ def arm_topics(joint_names: tuple[str, ...]) -> Topics:
         words = [word] * len(joint_names)
         return arm_messages.fill_regimes(arm_messages.JointRegimes(), joint_names, words, header)
 
-    return Topics(ARM_FILLS, joint_names, '~/regimes', lambda estimate: estimate.regimes, said)
+    return Topics(
+        ARM_FILLS,
+        joint_names,
+        '~/regimes',
+        lambda estimate: estimate.regimes,
+        said,
+        SLOW_ARM_FILLS,
+    )

@@ -19,10 +19,13 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 __all__ = [
+    'ADMISSIBLE_ANGLES_MISSING',
     'ARM_INTERFACES_MISSING',
+    'AdmissibleAngles',
     'ArmEstimate',
     'JointRegimes',
     'SolveArm',
+    'fill_admissible_angles',
     'fill_arm_estimate',
     'fill_regimes',
     'fill_solve_arm',
@@ -39,6 +42,14 @@ except ImportError as _error:
     ARM_INTERFACES_MISSING = str(_error)
 else:
     ARM_INTERFACES_MISSING = ''
+
+try:
+    from tendon_statics_interfaces.msg import AdmissibleAngles
+except ImportError as _error:  # also of interfaces that have all but this
+    AdmissibleAngles = None
+    ADMISSIBLE_ANGLES_MISSING = str(_error)
+else:
+    ADMISSIBLE_ANGLES_MISSING = ''
 
 _NOWHERE = TipPose(math.nan, math.nan, math.nan)
 
@@ -125,6 +136,23 @@ def fill_tip_pose(
         for column, value in zip(_IN_POSE, of_row, strict=True):
             found[6 * row + column] = value
     message.pose.covariance = found
+    return message
+
+
+def fill_admissible_angles(
+    message: AdmissibleAngles, estimate: ArmAnswer, header: Header
+) -> AdmissibleAngles:
+    """Put the angles at which friction can hold each joint into a message."""
+    found = [
+        (joint, *interval)
+        for joint, intervals in enumerate([] if estimate.state.is_slack else estimate.bands, 1)
+        for interval in intervals
+    ]
+    message.header = header
+    message.joint_names = list(estimate.settings.joint_names)
+    message.joints = [joint for joint, _, _ in found]
+    message.lows = [low for _, low, _ in found]
+    message.highs = [high for _, _, high in found]
     return message
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from builtin_interfaces.msg import Time
@@ -30,8 +31,8 @@ STATES = ('~/regime', '~/regimes', '~/markers')
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 """So that who joins later hears the state; volatile subscribers fit as well"""
 
-MARKER_PERIOD = 0.05
-"""Least time in s between two drawings of the unit"""
+SLOW_PERIOD = 0.05
+"""Least time in s between two messages on a topic of which each takes long"""
 
 
 class Finding:
@@ -62,6 +63,27 @@ class Output(NamedTuple):
     fill: Fill
 
 
+class SlowOutput:
+    """A topic whose messages take long to fill, so that not every finding is published on it."""
+
+    def __init__(self, output: Output) -> None:
+        self._output = output
+        self._next = 0.0
+
+    def publish(self, finding: Finding) -> None:
+        """Publish a finding if somebody listens, and the last message is `SLOW_PERIOD` ago."""
+        publisher, message, fill = self._output
+        if publisher.handle.get_subscription_count() > 0 and time.monotonic() >= self._next:
+            self._next = time.monotonic() + SLOW_PERIOD
+            if fill(message, finding):
+                publisher.publish(message)
+
+    def replace(self, message: Any) -> None:
+        """Publish something else, and the next finding whenever it comes."""
+        self._output.publisher.publish(message)
+        self._next = 0.0
+
+
 class Topics(NamedTuple):
     """What a kind of estimator says after a set of tensions, on which topics."""
 
@@ -75,6 +97,8 @@ class Topics(NamedTuple):
     """Returns the regimes of an estimate, to be compared with those before"""
     said: Callable[[str, Header], Any]
     """Makes a message for that topic of what is said where there is no estimate, say ``stale``"""
+    slow_fills: Mapping[str, tuple[type, Fill]] = MappingProxyType({})
+    """As `fills`, of topics on which not every finding is published"""
 
 
 class Outputs:
@@ -110,9 +134,15 @@ class Outputs:
         regimes = self._of_findings.get(topics.regimes_on)
         self._regimes = None if regimes is None else regimes.publisher
         self._latched: Any = ''
-        self._draw = draw
-        self._markers = output_publisher(node, MarkerArray, '~/markers') if draw else None
-        self._next_drawing = 0.0
+        self._slow = [
+            SlowOutput(Output(output_publisher(node, message_type, topic), message_type(), fill))
+            for topic, (message_type, fill) in topics.slow_fills.items()
+        ]
+        self._markers: SlowOutput | None = None
+        if draw is not None:
+            publisher = output_publisher(node, MarkerArray, '~/markers')
+            self._markers = SlowOutput(Output(publisher, MarkerArray(), _drawing(draw)))
+            self._slow.append(self._markers)
         self._diagnostics = output_publisher(node, DiagnosticArray, '/diagnostics')
 
     def publish(self, estimate: Any, stamp: Callable[[], Time]) -> None:
@@ -123,14 +153,8 @@ class Outputs:
             if publisher.handle.get_subscription_count() > 0 and fill(message, finding):
                 publisher.publish(message)
         self._latch_regimes(finding)
-        if (
-            self._draw is not None
-            and self._markers is not None
-            and self._markers.handle.get_subscription_count() > 0
-            and time.monotonic() >= self._next_drawing
-        ):
-            self._next_drawing = time.monotonic() + MARKER_PERIOD
-            self._markers.publish(self._draw(estimate, finding.header))
+        for slow in self._slow:
+            slow.publish(finding)
 
     def say_regime(self, regime: str) -> None:
         """Publish what is said where there is no result, say ``stale``."""
@@ -153,8 +177,7 @@ class Outputs:
         """Take away what is drawn in RViz."""
         if self._markers is not None:
             header = Header(stamp=self._now(), frame_id=self._frame_id)
-            self._markers.publish(no_markers(header))
-            self._next_drawing = 0.0
+            self._markers.replace(no_markers(header))
 
     def report(self, status: DiagnosticStatus) -> None:
         """Publish a status on ``/diagnostics``."""
@@ -164,6 +187,14 @@ class Outputs:
 
     def _now(self) -> Time:
         return self._node.get_clock().now().to_msg()
+
+
+def _drawing(draw: Callable[[Any, Header], MarkerArray]) -> Fill:
+    def fill(message: MarkerArray, finding: Finding) -> bool:
+        message.markers = draw(finding.estimate, finding.header).markers
+        return True
+
+    return fill
 
 
 def output_publisher(node: Node, message_type: type, topic: str) -> Publisher:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ..errors import RecordingError
@@ -27,14 +27,23 @@ _LOOSE_UNIT = re.compile(
 """A title with a unit in round brackets or after a stroke, a comma or ``in``, or a last word"""
 
 
+MOST_NAMED = 8
+"""Columns that are not used and are named"""
+
+
 class Column(NamedTuple):
     """Where a quantity stands in a table."""
 
     place: int
     factor: float
     """What one of its unit is in SI"""
-    has_unit: bool = False
-    """Whether the unit is said, and not taken to be SI"""
+    unit: str = ''
+    """The unit that is said; empty: none is, and SI is taken"""
+
+    @property
+    def has_unit(self) -> bool:
+        """Whether the unit is said, and not taken to be SI."""
+        return bool(self.unit)
 
 
 class Columns(NamedTuple):
@@ -48,6 +57,15 @@ class Columns(NamedTuple):
     """Places of what is left alone"""
     in_newtons: bool = False
     """Whether the tensions are in N for certain, since their units are said"""
+    converted: tuple[str, ...] = ()
+    """What was in another unit than that of SI, for people"""
+    unused: tuple[str, ...] = ()
+    """Titles of what is left alone"""
+
+    @property
+    def notes(self) -> list[str]:
+        """How they were read, for people."""
+        return [*self.converted, *_said_unused([of for of in self.unused if of.strip()])]
 
 
 def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> Columns:
@@ -97,7 +115,27 @@ def find_columns(titles: Sequence[str], options: TableOptions | None = None) -> 
     used = {column.place for column in found.values()} | {*(time.places if time else ())}
     used |= set() if state is None else {state.place}
     others = tuple(place for place in range(len(titles)) if place not in used)
-    return Columns(found, time, None if state is None else state.place, others, in_newtons)
+    state_place = None if state is None else state.place
+    converted = tuple(_converted(found, quantities))
+    unused = tuple(titles[place] for place in others)
+    return Columns(found, time, state_place, others, in_newtons, converted, unused)
+
+
+def _converted(found: Mapping[str, Column], quantities: Quantities) -> Iterator[str]:
+    """Say which columns were in another unit than that of SI."""
+    of_unit: dict[tuple[str, str], list[str]] = {}
+    for name, column in found.items():
+        if column.factor != 1.0:
+            si = next(iter(quantities.kinds[name].units))
+            of_unit.setdefault((column.unit, si), []).append(name)
+    for (unit, si), names in of_unit.items():
+        yield f'{" and ".join(names)}: in {unit}, converted to {si}'
+
+
+def _said_unused(titles: Sequence[str]) -> Iterator[str]:
+    if titles:
+        more = f' and {len(titles) - MOST_NAMED} more' if len(titles) > MOST_NAMED else ''
+        yield f'not used: {", ".join(titles[:MOST_NAMED])}{more}'
 
 
 def _there(titles: Sequence[str], needed: Sequence[str]) -> str:
@@ -153,7 +191,8 @@ def _column(place: int, quantity: str, unit: str | None, options: TableOptions) 
         return Column(place, 1.0)
     if quantity in options.units and quantities.common(quantity, unit) is None:
         return Column(place, 1.0)  # What the option says counts.
-    return Column(place, quantities.factor(quantity, unit), has_unit=True)
+    factor = quantities.factor(quantity, unit)
+    return Column(place, factor, quantities.common(quantity, unit) or unit)
 
 
 def _split(title: str, quantity: str, quantities: Quantities) -> tuple[str, str | None]:
@@ -186,7 +225,7 @@ def _with_unit(unit: str, factor: float, column: Column, titles: Sequence[str]) 
         raise RecordingError(
             f'the unit of {titles[column.place]!r} stands in its title, and --units says {unit}'
         )
-    return Column(column.place, factor, has_unit=True)
+    return Column(column.place, factor, unit)
 
 
 def _time(

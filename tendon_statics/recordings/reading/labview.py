@@ -17,7 +17,7 @@ LABVIEW = 'LabVIEW Measurement'
 X_TITLE = 'X_Value'
 """Of times"""
 
-NO_TIME = 'no time'
+NO_TIME = ''
 """Title in place of X_Value where it is empty"""
 
 LABVIEW_END = '***End_of_Header***'

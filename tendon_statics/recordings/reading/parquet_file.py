@@ -47,6 +47,9 @@ def load_parquet(
         columns = find_columns(titles, options)
         moments = [] if columns.time else _moments(file.schema_arrow, columns.others)
         time = moments[0] if len(moments) == 1 else columns.time
+        if moments and time is not None:
+            unused = tuple(title for title in columns.unused if title != time.title)
+            columns = columns._replace(unused=unused)
         places = [column.place for column in columns.numbers.values()]
         may_be = [
             place

@@ -43,7 +43,7 @@ class Table(NamedTuple):
             ),
             'name': self.name,
             'damage': tuple(self.damage),
-            'notes': (*self.notes, *said),
+            'notes': (*self.notes, *self.columns.notes, *said),
         }
 
     @property
