@@ -131,7 +131,7 @@ def test_a_script_that_does_not_expect_ctrl_c_does_not_pass_for_one_that_does():
 
 @pytest.fixture(scope='module')
 def ask_estimator(tmp_path_factory):
-    """Build the client in C++, without warnings, and return what runs it with its arguments."""
+    """Build the client in C++, without warnings, and return its path."""
     try:
         get_package_prefix('rclcpp')
     except PackageNotFoundError:
@@ -143,16 +143,14 @@ def ask_estimator(tmp_path_factory):
     ):
         done = subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT)
         assert done.returncode == 0, done.stdout + done.stderr
+    return folder / 'ask_estimator'
 
-    def run(*arguments):
-        return subprocess.run(
-            [folder / 'ask_estimator', *arguments],
-            capture_output=True,
-            text=True,
-            timeout=TIME_LIMIT,
-        )
 
-    return run
+def run_client(program, *arguments):
+    """Run the client in C++ to its end."""
+    return subprocess.run(
+        [program, *arguments], capture_output=True, text=True, timeout=TIME_LIMIT
+    )
 
 
 def test_the_client_in_cpp_asks_and_says_why_there_is_no_answer(ask_estimator, listener):
@@ -161,17 +159,24 @@ def test_the_client_in_cpp_asks_and_says_why_there_is_no_answer(ask_estimator, l
             (('1.0', '2.0'), 'equilibrium: 0.2991 +- 0.1229 rad, 405.6 Pa\n'),
             (('1.0', '1.5'), 'held: the tensions do not tell the angle\n'),
         ):
-            done = ask_estimator(*pair)
+            done = run_client(ask_estimator, *pair)
             assert (done.returncode, done.stdout) == (0, text), done.stderr
-        done = ask_estimator('-1.0', '2.0')
+        done = run_client(ask_estimator, '-1.0', '2.0')
         assert (done.returncode, done.stdout) == (1, '')
         assert 'tension_l is -1.0 N, allowed is 0 to' in done.stderr
 
 
 def test_the_client_in_cpp_says_that_no_estimator_is_running(ask_estimator):
-    done = ask_estimator('1.0', '2.0')
+    done = run_client(ask_estimator, '1.0', '2.0')
     assert (done.returncode, done.stdout) == (1, '')
     assert 'no estimator is running' in done.stderr
+
+
+def test_the_client_in_cpp_blames_no_estimator_for_ctrl_c(ask_estimator, listener):
+    with Program.running_command([ask_estimator, '1.0', '2.0']) as client:
+        wait_for('the client', lambda: 'ask_estimator' in listener.get_node_names())
+        assert client.end() == 1
+        assert 'estimator is running' not in client.output()
 
 
 @pytest.mark.parametrize(
@@ -185,6 +190,6 @@ def test_the_client_in_cpp_says_that_no_estimator_is_running(ask_estimator):
     ],
 )
 def test_the_client_in_cpp_takes_no_arguments_but_two_numbers(ask_estimator, arguments, text):
-    done = ask_estimator(*arguments)
+    done = run_client(ask_estimator, *arguments)
     assert (done.returncode, done.stdout) == (2, '')
     assert done.stderr.endswith(text)
