@@ -8,6 +8,7 @@ import time
 from contextlib import suppress
 
 import pytest
+from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 from ctrl_c import assert_ends_by_ctrl_c
 from make_docs import ROOT
 from ros_programs import Program, wait_for
@@ -126,3 +127,69 @@ def test_a_script_that_does_not_expect_ctrl_c_does_not_pass_for_one_that_does():
         wait_for('that it spins', lambda: 'spins' in careless.output())
         with pytest.raises(AssertionError):
             assert_ends_by_ctrl_c(careless)
+
+
+@pytest.fixture(scope='module')
+def ask_estimator(tmp_path_factory):
+    """Build the client in C++, without warnings, and return its path."""
+    try:
+        get_package_prefix('rclcpp')
+    except PackageNotFoundError:
+        pytest.skip('there is no rclcpp')
+    folder = tmp_path_factory.mktemp('cpp_client')
+    for command in (
+        ('cmake', '-S', EXAMPLES / 'cpp_client', '-B', folder, '-DCMAKE_CXX_FLAGS=-Werror'),
+        ('cmake', '--build', folder),
+    ):
+        done = subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT)
+        assert done.returncode == 0, done.stdout + done.stderr
+    return folder / 'ask_estimator'
+
+
+def run_client(program, *arguments):
+    """Run the client in C++ to its end."""
+    return subprocess.run(
+        [program, *arguments], capture_output=True, text=True, timeout=TIME_LIMIT
+    )
+
+
+def test_the_client_in_cpp_asks_and_says_why_there_is_no_answer(ask_estimator, listener):
+    with listener.estimator():
+        for pair, text in (
+            (('1.0', '2.0'), 'equilibrium: 0.2991 +- 0.1229 rad, 405.6 Pa\n'),
+            (('1.0', '1.5'), 'held: the tensions do not tell the angle\n'),
+        ):
+            done = run_client(ask_estimator, *pair)
+            assert (done.returncode, done.stdout) == (0, text), done.stderr
+        done = run_client(ask_estimator, '-1.0', '2.0')
+        assert (done.returncode, done.stdout) == (1, '')
+        assert 'tension_l is -1.0 N, allowed is 0 to' in done.stderr
+
+
+def test_the_client_in_cpp_says_that_no_estimator_is_running(ask_estimator):
+    done = run_client(ask_estimator, '1.0', '2.0')
+    assert (done.returncode, done.stdout) == (1, '')
+    assert 'no estimator is running' in done.stderr
+
+
+def test_the_client_in_cpp_blames_no_estimator_for_ctrl_c(ask_estimator, listener):
+    with Program.running_command([ask_estimator, '1.0', '2.0']) as client:
+        wait_for('the client', lambda: 'ask_estimator' in listener.get_node_names())
+        assert client.end() == 1
+        assert 'estimator is running' not in client.output()
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'text'),
+    [
+        (('1.0',), 'usage: ask_estimator TENSION_L TENSION_S, in N\n'),
+        (('abc', '2.0'), "ask_estimator: 'abc' is no tension: give a number, in N\n"),
+        (('1.0', '2.0x'), "ask_estimator: '2.0x' is no tension: give a number, in N\n"),
+        (('1.0', '1e999'), "ask_estimator: '1e999' is no tension: give a number, in N\n"),
+        (('1.0', '2.0', '--ros-args', '--no-such'), "unknown ROS arguments: '--no-such'\n"),
+    ],
+)
+def test_the_client_in_cpp_takes_no_arguments_but_two_numbers(ask_estimator, arguments, text):
+    done = run_client(ask_estimator, *arguments)
+    assert (done.returncode, done.stdout) == (2, '')
+    assert done.stderr.endswith(text)

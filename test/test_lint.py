@@ -21,7 +21,7 @@ def test_the_code_has_its_style(command):
     assert done.returncode == 0, done.stdout
 
 
-@pytest.mark.parametrize('folder', ['.', 'interfaces'])
+@pytest.mark.parametrize('folder', ['.', 'interfaces', 'examples/cpp_client'])
 def test_a_package_has_the_form_that_the_tools_of_ros_take(folder):
     package = pytest.importorskip('catkin_pkg.package')
     warnings = []

@@ -14,8 +14,10 @@ def test_it_is_a_version():
     assert re.fullmatch(r'\d+\.\d+\.\d+', VERSION)
 
 
-@pytest.mark.parametrize('path', ['setup.py', 'interfaces/package.xml'])
-def test_both_packages_and_the_set_up_have_the_same(path):
+@pytest.mark.parametrize(
+    'path', ['setup.py', 'interfaces/package.xml', 'examples/cpp_client/package.xml']
+)
+def test_every_package_and_the_set_up_have_the_same(path):
     text = (ROOT / path).read_text(encoding='utf-8')
     assert re.search(rf"<version>{VERSION}</version>|version='{VERSION}'", text)
 

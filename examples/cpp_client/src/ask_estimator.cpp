@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "rclcpp/rclcpp.hpp"
@@ -22,12 +24,24 @@ namespace
 
 constexpr std::chrono::seconds kPatience{5};
 
+double to_tension(const std::string & word)  // [N]
+{
+  std::istringstream rest(word);
+  double tension = 0.0;
+  if (!(rest >> tension) || !rest.eof()) {
+    throw std::invalid_argument("'" + word + "' is no tension: give a number, in N");
+  }
+  return tension;
+}
+
 int ask(double tension_l, double tension_s)
 {
   const auto node = std::make_shared<rclcpp::Node>("ask_estimator");
   const auto client = node->create_client<Solve>("estimator/solve");
   if (!client->wait_for_service(kPatience)) {
-    RCLCPP_ERROR(node->get_logger(), "no estimator is running");
+    if (rclcpp::ok()) {  // and no Ctrl-C
+      RCLCPP_ERROR(node->get_logger(), "no estimator is running");
+    }
     return 1;
   }
 
@@ -35,11 +49,12 @@ int ask(double tension_l, double tension_s)
   request->tension_l = tension_l;  // [N]
   request->tension_s = tension_s;  // [N]
   auto answer = client->async_send_request(request);
-  if (rclcpp::spin_until_future_complete(node, answer, kPatience) !=
-    rclcpp::FutureReturnCode::SUCCESS)
-  {
+  const auto outcome = rclcpp::spin_until_future_complete(node, answer, kPatience);
+  if (outcome != rclcpp::FutureReturnCode::SUCCESS) {
     client->remove_pending_request(answer);
-    RCLCPP_ERROR(node->get_logger(), "no answer came in time");
+    if (outcome == rclcpp::FutureReturnCode::TIMEOUT) {
+      RCLCPP_ERROR(node->get_logger(), "no answer came in time");
+    }
     return 1;
   }
 
@@ -62,16 +77,16 @@ int ask(double tension_l, double tension_s)
 
 int main(int argc, char ** argv)
 {
-  const auto arguments = rclcpp::init_and_remove_ros_arguments(argc, argv);
   int code = 2;
-  if (arguments.size() != 3) {
-    std::fprintf(stderr, "usage: ask_estimator TENSION_L TENSION_S, in N\n");
-  } else {
-    try {
-      code = ask(std::stod(arguments[1]), std::stod(arguments[2]));
-    } catch (const std::exception & error) {
-      std::fprintf(stderr, "ask_estimator: %s\n", error.what());
+  try {
+    const auto arguments = rclcpp::init_and_remove_ros_arguments(argc, argv);
+    if (arguments.size() == 3) {
+      code = ask(to_tension(arguments[1]), to_tension(arguments[2]));
+    } else {
+      std::fprintf(stderr, "usage: ask_estimator TENSION_L TENSION_S, in N\n");
     }
+  } catch (const std::exception & error) {
+    std::fprintf(stderr, "ask_estimator: %s\n", error.what());
   }
   rclcpp::shutdown();
   return code;
