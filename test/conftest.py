@@ -8,6 +8,9 @@ from dataclasses import asdict
 import pytest
 import thoroughness  # noqa: F401  which chooses hypothesis's profile
 
+# Each worker and each program has a core; more threads only wait for one another, at full load.
+os.environ.setdefault('OMP_NUM_THREADS', '1')
+
 # In the background a shell has a program ignore Ctrl-C, and with it those that this one starts.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
