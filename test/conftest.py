@@ -49,9 +49,13 @@ def pytest_collection_modifyitems(items):
 
 
 def pytest_collection_finish():
-    """Leave what is loaded by now alone: looking for garbage in it takes long and finds none."""
+    """Leave what is loaded by now alone: looking for garbage in it takes long and finds none.
+
+    In what the tests make, too, it is looked for less often than in a program that goes on.
+    """
     gc.collect()
     gc.freeze()
+    gc.set_threshold(50_000, 20, 100)
 
 
 @pytest.fixture(scope='session', autouse=True)
