@@ -58,7 +58,10 @@ def forces(case: Case, angle):
     weight = design.mass * design.gravity
     sine, cosine = np.sin(angle), np.cos(angle)
     # Parts of both forces along the unit's axis (sin, cos) and across it (cos, −sin).
-    weight_along, weight_across = weight * (x * sine + z * cosine), weight * (x * cosine - z * sine)
+    weight_along, weight_across = (
+        weight * (x * sine + z * cosine),
+        weight * (x * cosine - z * sine),
+    )
     tip_x, tip_z = load.tip_force
     tip_along, tip_across = tip_x * sine + tip_z * cosine, tip_x * cosine - tip_z * sine
     moment = (case.tension_s - case.tension_l) * (design.ball_radius + design.cable_offset)

@@ -36,7 +36,6 @@ def seat_constants(start_angle: float, end_angle: float) -> SeatConstants:
 
     The means over the azimuth are complete elliptic integrals of the modulus sin t.
     """
-
     middle, half = 0.5 * (start_angle + end_angle), 0.5 * (end_angle - start_angle)
     circles = [(weight, _circle(middle + half * place)) for place, weight in _rule()]
 
