@@ -22,7 +22,13 @@ FORKS.set_forkserver_preload(
         *(
             f'tendon_statics.command_line.{name}'
             for name in (
-                *('figure_hysteresis', 'figure_map', 'figure_residual', 'figure_unit'),
+                *(
+                    'laid_out_figure',
+                    'figure_hysteresis',
+                    'figure_map',
+                    'figure_residual',
+                    'figure_unit',
+                ),
                 *('arm_invert', 'arm_margins', 'arm_order', 'arm_plot', 'arm_replay'),
                 *('arm_replay_text', 'arm_report', 'arm_tip_force', 'arm_track'),
             )
