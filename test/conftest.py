@@ -11,6 +11,9 @@ import thoroughness  # noqa: F401  which chooses hypothesis's profile
 # Each worker and each program has a core; more threads only wait for one another, at full load.
 os.environ.setdefault('OMP_NUM_THREADS', '1')
 
+# What is loaded from here on stays; see `pytest_collection_finish`.
+gc.disable()
+
 # In the background a shell has a program ignore Ctrl-C, and with it those that this one starts.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -56,6 +59,7 @@ def pytest_collection_finish():
     gc.collect()
     gc.freeze()
     gc.set_threshold(50_000, 20, 100)
+    gc.enable()
 
 
 @pytest.fixture(scope='session', autouse=True)
