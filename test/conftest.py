@@ -8,11 +8,9 @@ from dataclasses import asdict
 import pytest
 import thoroughness  # noqa: F401  which chooses hypothesis's profile
 
-# Each worker and each program has a core; more threads only wait for one another, at full load.
+# All cores are taken by workers and programs; threads beyond that wait for one another, at full
+# load, in every decomposition of a small matrix.
 os.environ.setdefault('OMP_NUM_THREADS', '1')
-
-# What is loaded from here on stays; see `pytest_collection_finish`.
-gc.disable()
 
 # In the background a shell has a program ignore Ctrl-C, and with it those that this one starts.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
@@ -51,15 +49,20 @@ def pytest_collection_modifyitems(items):
             item.add_marker(pytest.mark.browser)
 
 
-def pytest_collection_finish():
-    """Leave what is loaded by now alone: looking for garbage in it takes long and finds none.
+@pytest.hookimpl(wrapper=True)
+def pytest_collection():
+    """Leave what is loaded by then alone: looking for garbage in it takes long and finds none.
 
     In what the tests make, too, it is looked for less often than in a program that goes on.
     """
-    gc.collect()
-    gc.freeze()
-    gc.set_threshold(50_000, 20, 100)
-    gc.enable()
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.collect()
+        gc.freeze()
+        gc.set_threshold(50_000, 20, 100)
+        gc.enable()
 
 
 @pytest.fixture(scope='session', autouse=True)
