@@ -50,8 +50,9 @@ def test_a_map_elsewhere_marks_nothing():
     assert not drawn(figure_map, '--tension-l-range', '2', '3', '--points', '21').lines
 
 
-@pytest.mark.parametrize('ending', ['svg', 'png', 'pdf'])
-@pytest.mark.parametrize('figure', [figure_hysteresis, figure_map, figure_unit])
+@pytest.mark.parametrize(
+    ('figure', 'ending'), [(figure_hysteresis, 'svg'), (figure_map, 'png'), (figure_unit, 'pdf')]
+)
 def test_a_figure_that_is_drawn_once_is_what_is_drawn_twice(figure, ending):
     def written(kind):
         parser = argparse.ArgumentParser()
