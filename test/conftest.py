@@ -8,6 +8,10 @@ from dataclasses import asdict
 import pytest
 import thoroughness  # noqa: F401  which chooses hypothesis's profile
 
+# All cores are taken by workers and programs; threads beyond that wait for one another, at full
+# load, in every decomposition of a small matrix.
+os.environ.setdefault('OMP_NUM_THREADS', '1')
+
 # In the background a shell has a program ignore Ctrl-C, and with it those that this one starts.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -45,10 +49,20 @@ def pytest_collection_modifyitems(items):
             item.add_marker(pytest.mark.browser)
 
 
-def pytest_collection_finish():
-    """Leave what is loaded by now alone: looking for garbage in it takes long and finds none."""
-    gc.collect()
-    gc.freeze()
+@pytest.hookimpl(wrapper=True)
+def pytest_collection():
+    """Leave what is loaded by then alone: looking for garbage in it takes long and finds none.
+
+    In what the tests make, too, it is looked for less often than in a program that goes on.
+    """
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.collect()
+        gc.freeze()
+        gc.set_threshold(50_000, 20, 100)
+        gc.enable()
 
 
 @pytest.fixture(scope='session', autouse=True)

@@ -64,13 +64,14 @@ def _styled(size: tuple[float, float]) -> Iterator[Figure]:
     """
     try:
         import matplotlib as mpl
-        from matplotlib.figure import Figure
+
+        from .laid_out_figure import LaidOutFigure
     except ImportError:
         raise UsageError(
             'figures need matplotlib: install python3-matplotlib or pip install matplotlib'
         ) from None
     with mpl.rc_context(_STYLE):
-        yield Figure(figsize=size)
+        yield LaidOutFigure(figsize=size)
 
 
 def write_figure(

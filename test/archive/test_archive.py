@@ -16,7 +16,6 @@ import numpy as np
 import pyarrow.dataset
 import pytest
 from bags import write_bag
-from distributed import Client, LocalCluster
 from make_docs import ROOT
 from programs import TIME_LIMIT
 from pyarrow import parquet
@@ -94,6 +93,8 @@ def forks():
 @pytest.fixture(scope='module')
 def cluster():
     """Two workers in processes of their own, forked where all is imported already."""
+    from distributed import LocalCluster  # Here, as each worker of the tests loads this file.
+
     with (
         dask.config.set({'distributed.worker.multiprocessing-method': 'forkserver'}),
         LocalCluster(
@@ -194,7 +195,7 @@ def test_the_page_names_every_recording_and_why_one_is_not_whole(dataset):
 @contextmanager
 def stopped_worker(cluster):
     """Stop a worker, so that what it is given is not done; give the number of its process."""
-    with Client(cluster) as client:
+    with cluster.get_client() as client:
         client.wait_for_workers(2)
         worker = next(iter(client.run(os.getpid).values()))
     os.kill(worker, signal.SIGSTOP)
@@ -344,7 +345,7 @@ def test_with_calibrate_there_are_fitted_values_with_their_errors(cluster, tmp_p
 
 def test_a_recording_that_kills_every_worker_costs_itself_only(cluster, monkeypatch):
     monkeypatch.setattr(cluster.scheduler, 'allowed_failures', 0)
-    with Client(cluster) as client:
+    with cluster.get_client() as client:
         client.wait_for_workers(2)
         killer = Results(client, _die_of_three, [1, 2, 3, 4, 5, 6], lambda thing: -thing)
         assert len(killer) == 6  # for a progress bar

@@ -1,12 +1,15 @@
 """What figures show, where a look at the file would not tell."""
 
 import argparse
+import io
 
 import numpy as np
 import pytest
+from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from tendon_statics.command_line import figure_hysteresis, figure_map
+from tendon_statics.command_line import figure_hysteresis, figure_map, figure_unit
+from tendon_statics.command_line.laid_out_figure import LaidOutFigure
 from tendon_statics.physics import paper
 
 
@@ -45,3 +48,22 @@ def test_a_map_marks_the_published_case_and_sets_the_stop_apart(quantity):
 
 def test_a_map_elsewhere_marks_nothing():
     assert not drawn(figure_map, '--tension-l-range', '2', '3', '--points', '21').lines
+
+
+@pytest.mark.parametrize(
+    ('figure', 'ending'), [(figure_hysteresis, 'svg'), (figure_map, 'png'), (figure_unit, 'pdf')]
+)
+def test_a_figure_that_is_drawn_once_is_what_is_drawn_twice(figure, ending):
+    def written(kind):
+        parser = argparse.ArgumentParser()
+        figure.add_arguments(parser)
+        file = io.BytesIO()
+        metadata = {'png': None, 'svg': {'Date': None}, 'pdf': {'CreationDate': None}}[ending]
+        with rc_context({'figure.constrained_layout.use': True, 'svg.hashsalt': 'a'}):
+            drawing = kind()
+            few = ('--points', '11') if figure is figure_map else ()
+            figure.draw(drawing, parser.parse_args(few))
+            drawing.savefig(file, format=ending, metadata=metadata)
+        return file.getvalue()
+
+    assert written(LaidOutFigure) == written(Figure)

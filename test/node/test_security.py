@@ -94,15 +94,29 @@ def rights_needed(name, make_node, *ros_arguments):
     }
 
 
-def rights_needed_in_every_configuration(node_class, *ros_arguments):
+def one_by_one(configurations):
+    """Each value of each parameter, all others at their defaults."""
+    return [[option] for option in itertools.chain(*configurations)]
+
+
+def together(configurations):
+    """A value of every parameter at once, until each had all of its own."""
+    longest = max(map(len, configurations))
+    return [
+        [options[min(at, len(options) - 1)] for options in configurations] for at in range(longest)
+    ]
+
+
+def rights_needed_in_every_configuration(node_class, *ros_arguments, chosen=one_by_one):
     """The union over all values of each parameter that chooses topics and services.
 
     No topic and no service hangs on two of them.
     """
     union = {'publish': set(), 'subscribe': set(), 'reply': set(), 'request': set()}
-    for parameter in itertools.chain(*CONFIGURATIONS[node_class]):
+    for options in chosen(CONFIGURATIONS[node_class]):
+        parameters = [part for option in options for part in ('-p', option)]
         for right, names in rights_needed(
-            NAMES[node_class], node_class, '-p', parameter, *ros_arguments
+            NAMES[node_class], node_class, *parameters, *ros_arguments
         ).items():
             union[right] |= names
     return union
@@ -290,5 +304,5 @@ def test_the_commands_of_the_page_follow_a_namespace_and_a_remapping(tmp_path):
         of_joint = permissions(tmp_path / 'distal.xml')
         assert set(of_joint) == {f'/tendon_statics/distal/{role}' for role in ROLES}
         for node_class, role in NAMES.items():
-            needed = rights_needed_in_every_configuration(node_class, *arguments)
+            needed = rights_needed_in_every_configuration(node_class, *arguments, chosen=together)
             assert of_joint[f'/tendon_statics/distal/{role}'] == needed

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from designs import PRELIMINARY
 from law_sessions import SessionPlan, session_of, unit_of
-from scipy.stats import binom
 from slips import (
     BEND_ANGLE_STDDEV,
     PRESSURE_STDDEV,
@@ -72,6 +71,13 @@ def test_exact_data_give_the_truth_back(with_pressure):
     assert fitted.counts['with pressure'] == (12 if with_pressure else 0)
 
 
+def once_in_a_thousand(count, rate):
+    """So many of `count` or fewer are covered at a rate no oftener than that."""
+    from scipy.stats import binom  # Here, as each worker loads this file.
+
+    return binom.ppf(0.001, count, rate)
+
+
 def deviations_and_cover(fits, names=THREE):
     """Errors of fitted values in standard errors, and how many intervals hold the truth."""
     truth = truth_of(names)
@@ -108,8 +114,7 @@ def test_intervals_cover_the_truth_at_their_stated_rate(fit, with_pressure, coun
     deviations, covered = deviations_and_cover(fits(), fit)
     # Where the noise is known from 12 slips alone, 92 % are covered.
     rate = 0.95 if noise == 1.0 else 0.92
-    # Fewer come once in a thousand times.
-    assert (covered > binom.ppf(0.001, seeds, rate)).all(), covered
+    assert (covered > once_in_a_thousand(seeds, rate)).all(), covered
     spread = np.std(deviations, axis=0)
     assert (spread > 1.0 - 4.0 / math.sqrt(2.0 * seeds)).all(), spread
     assert (abs(np.mean(deviations, axis=0)) < 5.0 / math.sqrt(seeds)).all()
@@ -129,7 +134,7 @@ def test_held_samples_do_not_bias_what_slips_tell(ramp):
 
     deviations, covered = deviations_and_cover(fits())
     assert (abs(np.mean(deviations, axis=0)) < 3.0 / math.sqrt(seeds)).all()
-    assert (covered > binom.ppf(0.001, seeds, 0.95)).all(), covered
+    assert (covered > once_in_a_thousand(seeds, 0.95)).all(), covered
 
 
 @pytest.mark.parametrize(
@@ -182,7 +187,7 @@ def test_backbone_and_load_cells_of_any_law_come_back(law, fit, cells):
         covered += [
             low <= value <= high for (low, high), value in zip(intervals, true, strict=True)
         ]
-    assert (covered >= binom.ppf(0.001, seeds, 0.95)).all(), covered
+    assert (covered >= once_in_a_thousand(seeds, 0.95)).all(), covered
 
 
 def test_the_covariance_is_that_of_errors_and_correlations():

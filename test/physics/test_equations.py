@@ -7,7 +7,6 @@ import pytest
 from designs import PRELIMINARY, cases
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.integrate import quad
 
 from tendon_statics.physics import contact_coefficients
 from tendon_statics.physics.load import UPRIGHT
@@ -16,6 +15,8 @@ from tendon_statics.physics.tensions import Tensions, taut_slip
 
 @pytest.mark.parametrize('bend_angle', [-0.5, 0.0, 0.3])
 def test_contact_coefficients_are_integrals_over_the_arc(bend_angle):
+    from scipy.integrate import quad  # Here, as each worker loads this file.
+
     start = PRELIMINARY.contact_start_angle + bend_angle
     end = PRELIMINARY.contact_end_angle + bend_angle
     r = PRELIMINARY.ball_radius

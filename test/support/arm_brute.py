@@ -21,10 +21,13 @@ STEP = 1e-4
 LAWS = ('merged', 'friction_circle', 'elastic_seat')
 
 
+legendre = functools.cache(np.polynomial.legendre.leggauss)
+
+
 @functools.cache
 def seat_means(start: float, end: float) -> tuple[float, float, float]:
     """k_c, c and q of an elastic seat, by sums over its surface."""
-    nodes, weights = np.polynomial.legendre.leggauss(120)
+    nodes, weights = legendre(120)
     t = (0.5 * (start + end) + 0.5 * (end - start) * nodes)[:, None]
     f = (0.25 * math.pi * (nodes + 1.0))[None, :]
     share = weights[:, None] * np.sin(t) * weights[None, :]
@@ -125,9 +128,9 @@ class BruteArm:
         seat = mu * r * lever * (total + axial + mu * q * ahead) / (1.0 + c * mu**2)
         return max(seat, circle)
 
-    def excesses(self, tensions: dict[str, float], load: Load, angles: list[float]) -> list[float]:
+    def excesses(self, pulls: list[list[float]], load: Load, angles: list[float]) -> list[float]:
         """±(|M| − K) of every joint, 0 where friction or a stop holds it."""
-        pulls, found = self.pulls(tensions, angles), []
+        found = []
         for joint, unit in enumerate(self.arm.units):
             moment, capacity = self.moment_and_capacity(joint, load, angles, pulls)
             side = 1.0 if moment > 0.0 else -1.0
@@ -142,9 +145,10 @@ class BruteArm:
         radius = min(unit.design.ball_radius for unit in self.arm.units)
         enough = 1e-6 * radius * sum(tensions.values())
         step = STEP
-        excess = self.excesses(tensions, load, self.angles)
+        pulls = self.pulls(tensions, self.angles)
+        excess = self.excesses(pulls, load, self.angles)
         for _ in range(most_steps):
-            self.memory = self.pulls(tensions, self.angles)
+            self.memory = pulls
             fastest = max(map(abs, excess))
             if fastest <= enough:
                 return
@@ -152,7 +156,8 @@ class BruteArm:
                 min(max(angle + step * e / fastest, -stop), stop)
                 for angle, e, stop in zip(self.angles, excess, stops, strict=True)
             ]
-            later = self.excesses(tensions, load, after)
+            pulls = self.pulls(tensions, after)
+            later = self.excesses(pulls, load, after)
             # A joint that turns round has gone past its place of rest: smaller steps.
             turned = any(a * b < 0.0 for a, b in zip(excess, later, strict=True))
             step = 0.5 * step if turned or max(map(abs, later)) < 0.7 * fastest else 1.1 * step

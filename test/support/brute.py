@@ -29,10 +29,13 @@ class Case(NamedTuple):
     tension_s: float
 
 
+legendre = functools.cache(np.polynomial.legendre.leggauss)
+
+
 @functools.cache
 def seat_constants(start: float, end: float) -> tuple[float, float, float, float]:
     """k_c, c, q and ⟨cos t⟩ / a by sums over a grid of the seat."""
-    nodes, weights = np.polynomial.legendre.leggauss(200)
+    nodes, weights = legendre(200)
     polar = start + 0.5 * (nodes + 1.0) * (end - start)
     # A quarter of the azimuth stands for all of it.
     azimuth = 0.25 * np.pi * (nodes + 1.0)
@@ -52,15 +55,19 @@ def forces(case: Case, angle):
     """M, P_a and P_t at angles in rad, from vectors."""
     design, load = case.design, case.load
     x, _, z = load.gravity_direction
-    weight = design.mass * design.gravity * np.array([x, z])
-    tip = np.array(load.tip_force)
-    axis = np.array([np.sin(angle), np.cos(angle)])
-    across = np.array([np.cos(angle), -np.sin(angle)])
-    resultant = weight + tip
+    weight = design.mass * design.gravity
+    sine, cosine = np.sin(angle), np.cos(angle)
+    # Parts of both forces along the unit's axis (sin, cos) and across it (cos, −sin).
+    weight_along, weight_across = (
+        weight * (x * sine + z * cosine),
+        weight * (x * cosine - z * sine),
+    )
+    tip_x, tip_z = load.tip_force
+    tip_along, tip_across = tip_x * sine + tip_z * cosine, tip_x * cosine - tip_z * sine
     moment = (case.tension_s - case.tension_l) * (design.ball_radius + design.cable_offset)
-    moment = moment + design.com_distance * (weight @ across)
-    moment = moment + load.tip_distance * (tip @ across) - design.stiffness * np.asarray(angle)
-    return moment, -(resultant @ axis), resultant @ across
+    moment = moment + design.com_distance * weight_across
+    moment = moment + load.tip_distance * tip_across - design.stiffness * angle
+    return moment, -(weight_along + tip_along), weight_across + tip_across
 
 
 def capacity(case: Case, angle, side: float):
@@ -90,8 +97,9 @@ def capacity_under(design: JointDesign, total: float, axial, ahead):
 
 def excess(case: Case, angle, side: float):
     """±M − K in N m, above 0 where the unit slips to the side."""
-    moment, _, _ = forces(case, angle)
-    return side * moment - capacity(case, angle, side)
+    moment, axial, across = forces(case, angle)
+    total = case.tension_l + case.tension_s
+    return side * moment - capacity_under(case.design, total, axial, side * across)
 
 
 def seats(design: JointDesign, total: float, axial, ahead):
@@ -118,8 +126,10 @@ def excesses_under_push(case: Case, angle: float, direction, distance: float, fo
 
 def margin(case: Case, angle: float) -> float:
     """M / K with the capacity on the side of M."""
-    moment, _, _ = forces(case, angle)
-    return float(moment / capacity(case, angle, 1.0 if moment >= 0.0 else -1.0))
+    moment, axial, across = forces(case, angle)
+    ahead = across if moment >= 0.0 else -across
+    total = case.tension_l + case.tension_s
+    return float(moment / capacity_under(case.design, total, axial, ahead))
 
 
 def roots(case: Case, side: float, low: float, high: float) -> list[float]:

@@ -6,7 +6,9 @@ import dataclasses
 import math
 import random
 from collections.abc import Iterator
+from typing import Any
 
+import numpy as np
 from hypothesis import strategies as st
 
 from tendon_statics import JointDesign, default_design_path, load_design
@@ -58,9 +60,11 @@ def tensions_at_slip(design: JointDesign, bend_angle: float, total: float) -> tu
     friction, weight = design.friction_coefficient, design.weight
     phi = design.contact_centre_angle + bend_angle
 
-    def square_sum(normal: float) -> float:
-        x = friction * normal * math.cos(phi)
-        z = weight - friction * normal * math.sin(phi)
+    cosine, sine = math.cos(phi), math.sin(phi)
+
+    def square_sum(normal: Any) -> Any:
+        x = friction * normal * cosine
+        z = weight - friction * normal * sine
         return (total - normal) ** 2 - x * x - z * z
 
     normal = brentq(square_sum, 0.0, _first_sign_change(square_sum, total), xtol=1e-15)
@@ -73,8 +77,8 @@ def tensions_at_slip(design: JointDesign, bend_angle: float, total: float) -> tu
 def _first_sign_change(function, start: float) -> float:
     """Return the end of the shortest interval from 0 at which a function is negative."""
     steps = 4000
-    values = (2.0 * start * index / steps for index in range(1, steps + 1))
-    return next(value for value in values if function(value) < 0.0)
+    values = 2.0 * start * np.arange(1, steps + 1) / steps
+    return float(values[function(values) < 0.0][0])
 
 
 def random_cases(count: int, seed: int) -> Iterator[tuple[JointDesign, float, float]]:

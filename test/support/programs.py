@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import subprocess
 import sys
@@ -45,6 +46,7 @@ def _run_main(
     arguments: list[str], streams: list[Path], folder: Path, environment: dict[str, str]
 ) -> None:
     become(streams, folder, environment)
+    gc.disable()  # It ends before there is garbage that counts.
     sys.exit(main(arguments))
 
 

@@ -41,13 +41,14 @@ class Bristles:
         clearance: float,
         stiffness: float = BRISTLE_STIFFNESS,
     ) -> None:
-        self.normals = pads.directions
-        z = pads.directions[:, 2]
+        # A column each, as all that is of pads; sums over rows are several times as fast.
+        self.normals = np.ascontiguousarray(pads.directions.T)
+        z = self.normals[2]
         self.friction, self.clearance, self.depth = friction, clearance, depth
         gaps = np.maximum(0.0, (depth + clearance) * z - clearance)
         self.springs = pads.shares / np.sum(pads.shares * gaps * z)
         self.brushes = stiffness * self.springs
-        self.bent = np.zeros_like(pads.directions)
+        self.bent = np.zeros_like(self.normals)
         self.shift = np.array([0.0, 0.0, -clearance])
         self.angle = 0.0
 
@@ -78,18 +79,17 @@ class Bristles:
     def _pushed(self, shift_in_depths, turn):
         """Return force, held moment, bent bristles and shift after a shift and a turn."""
         shift = self.depth * np.array([shift_in_depths[0], 0.0, shift_in_depths[1]])
-        pressure = self.springs * np.maximum(0.0, -self.normals @ shift - self.clearance)
-        x, _, z = (self.normals - shift).T
-        turning = np.stack([z, np.zeros_like(x), -x], axis=-1)
-        moved = shift - self.shift + turn * turning
-        moved -= np.sum(moved * self.normals, axis=1, keepdims=True) * self.normals
+        pressure = self.springs * np.maximum(0.0, -shift @ self.normals - self.clearance)
+        x, _, z = self.normals - shift[:, np.newaxis]
+        turning = np.stack([z, np.zeros_like(x), -x])
+        moved = (shift - self.shift)[:, np.newaxis] + turn * turning
+        moved -= np.sum(moved * self.normals, axis=0) * self.normals
         bent = self.bent + moved
-        pull = self.brushes * np.linalg.norm(bent, axis=1)
+        pull = self.brushes * np.sqrt(np.sum(bent * bent, axis=0))
         limit = self.friction * pressure
-        bent = bent * np.where(pull > limit, limit / np.maximum(pull, 1e-300), 1.0)[:, np.newaxis]
-        rub = -self.brushes[:, np.newaxis] * bent
-        forces = pressure[:, np.newaxis] * self.normals + rub
-        return np.sum(forces, axis=0), -float(np.sum(forces * turning)), bent, shift
+        bent *= np.where(pull > limit, limit / np.maximum(pull, 1e-300), 1.0)
+        forces = pressure * self.normals - self.brushes * bent
+        return np.sum(forces, axis=1), -float(np.sum(forces * turning)), bent, shift
 
 
 def held_moment(

@@ -12,7 +12,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.integrate import dblquad
 from scipy.optimize import root
 
 from .constructions import BALL_RADIUS, Pads, TightSeat
@@ -34,6 +33,8 @@ class SeatConstants(NamedTuple):
 
 def seat_constants(seat: TightSeat) -> SeatConstants:
     """Integrate over the zone adaptively."""
+    from scipy.integrate import dblquad  # Here, since it takes long to load.
+
     start, end = math.radians(seat.start_deg), math.radians(seat.end_deg)
 
     def mean(function):

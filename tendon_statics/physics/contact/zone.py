@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 
@@ -36,14 +36,14 @@ def seat_constants(start_angle: float, end_angle: float) -> SeatConstants:
 
     The means over the azimuth are complete elliptic integrals of the modulus sin t.
     """
+    middle, half = 0.5 * (start_angle + end_angle), 0.5 * (end_angle - start_angle)
+    circles = [(weight, _circle(middle + half * place)) for place, weight in _rule()]
 
     def mean(of: Callable[[_Circle], float]) -> float:
-        def integrand(t: float) -> float:
-            cosine = math.cos(t)
-            sine = math.sin(t)
-            return sine * of(_Circle(cosine, sine, *_elliptic_means(cosine)))
-
-        return _integral(integrand, start_angle, end_angle) / area
+        total = 0.0
+        for weight, circle in circles:
+            total += weight * (circle.sine * of(circle))
+        return total * STEP * half / area
 
     area = math.cos(start_angle) - math.cos(end_angle)
     axial = mean(lambda at: at.cosine**2)
@@ -64,6 +64,11 @@ class _Circle(NamedTuple):
     sine: float
     inverse_lever: float
     lever: float
+
+
+def _circle(polar_angle: float) -> _Circle:
+    cosine = math.cos(polar_angle)
+    return _Circle(cosine, math.sin(polar_angle), *_elliptic_means(cosine))
 
 
 def _elliptic_means(cosine: float) -> tuple[float, float]:
@@ -87,14 +92,17 @@ REACH = 110
 """Steps to either side, beyond which the weights of the quadrature are below rounding"""
 
 
-def _integral(function: Callable[[float], float], low: float, high: float) -> float:
-    """Integrate by the double-exponential rule, which is not troubled by singular ends."""
-    middle, half = 0.5 * (low + high), 0.5 * (high - low)
-    total = 0.0
+@cache
+def _rule() -> tuple[tuple[float, float], ...]:
+    """Places from −1 to 1 and weights, to be multiplied by `STEP`, for an integral between these.
+
+    It is the double-exponential rule, which is not troubled by singular ends.
+    """
+    rule = []
     for index in range(-REACH, REACH + 1):
         way = 0.5 * math.pi * math.sinh(index * STEP)
         place = math.tanh(way)
         weight = 0.5 * math.pi * math.cosh(index * STEP) / math.cosh(way) ** 2
         if abs(place) < 1.0:
-            total += weight * function(middle + half * place)
-    return total * STEP * half
+            rule.append((place, weight))
+    return tuple(rule)
