@@ -70,9 +70,7 @@ def main() -> int:
     rows = []
     for unit in [options.unit] if options.unit else UNITS:
         for number in range(options.rests):
-            one = rest(
-                unit, options.noise, options.rate, options.seconds, options.seed + number
-            )
+            one = rest(unit, options.noise, options.rate, options.seconds, options.seed + number)
             after = f'{one.after:.0f}' if math.isfinite(one.after) else '-'
             share = f'{1e6 * one.provisional:.0f}'
             rows.append((unit, str(options.seed + number), f'{one.drift:.2f}', after, share))

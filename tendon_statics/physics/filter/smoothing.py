@@ -18,8 +18,8 @@ not jump. So where windows before and after a place say different things, it ben
 straight pieces that meet, and is the lower of the two where it bends down, the higher where it
 bends up. A rest is not to be taken apart by a corner that noise has made up, though: a place has
 thousands of others like it in a minute, and the less sure of two windows at one of them would
-carry the unit away for good. So the piece that is overshot has to be a line beyond doubt, or the
-two to differ beyond doubt.
+carry the unit away for good. So one of the two pieces has to be a line beyond doubt, or they have
+to differ beyond doubt.
 
 Samples are counted, not timed: they are taken to follow each other at a steady rate.
 """
@@ -41,11 +41,11 @@ REACH = int(SIZES[-1])
 """Samples before a place that its windows reach"""
 
 CONFIDENCES = np.array([5.0, 5.0, 4.5, 4.0, 3.5, 3.0, 2.5, 2.25, 2.0])
-"""Half-widths of the confidence intervals of windows of `SIZES`, in standard errors. Narrow windows
-are the ones to be left with for a while, and there are the more of them in an hour, so that chance
-has the more to offer: a rest is not to be torn apart by what is far out once in a million samples"""
+"""Half-widths of the confidence intervals of windows of `SIZES`, in standard errors. There are the
+more narrow windows in an hour, so that chance has the more to offer, and what is told by one alone
+is the least sure: a rest is not to be torn apart by what is far out once in a million samples"""
 
-SURE = 4.0
+SURE = 3.5
 """Standard errors by which a slope, or the difference of two windows, is one beyond doubt"""
 
 _AROUND, _LINES = 0, slice(3, 5)
@@ -193,7 +193,7 @@ class Windows:
         is_before = (change > 0.0) == (bend < 0.0)
         doubt, change = (sure * sure).sum(axis=1), change * change
         corner = change > doubt
-        corner &= np.where(is_before, steep[:, 1], steep[:, 0]) | (change > SURE * SURE * doubt)
+        corner &= steep.any(axis=1) | (change > SURE * SURE * doubt)
         # A single sample tells of no corner.
         corner &= np.where(is_before, sure[:, 0], sure[:, 1]) < stddev
         corner &= bend != 0.0
