@@ -55,6 +55,10 @@ measure-filter: setup ## Measure the filter on random sessions, beside the track
 measure-smoothing: setup ## Measure how the filter smooths tensions, in its own errors
 	@$(run) cd tools && python -m measure_filter.smoothing $(ARGS)
 
+.PHONY: measure-rests
+measure-rests: setup ## Measure whether the filter leaves a unit at rest where it is (ARGS='--seconds 3600')
+	@$(run) cd tools && python -m measure_filter.rests $(ARGS)
+
 .PHONY: measure-consistency
 measure-consistency: setup ## Measure how well the filter finds a model that is wrong (ARGS='--sessions 4')
 	@$(run) python tools/measure_consistency.py $(ARGS)

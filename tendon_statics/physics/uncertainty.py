@@ -4,10 +4,12 @@ The slip angle is that at which the unit is about to slip to the side of the str
 the slip function g rises with the angle through the range, it lies at or before x just where
 g(x) ≥ 0. So to first order in the noise
 
-    F(x) = P(slip angle ≤ x) = Φ(g(x) / σ_g(x)),
+    F(x) = P(slip angle ≤ x) = Φ(s(x)),  s(x) = g(x) / σ_g(x),
 
 whatever the regime: F(0) is the probability of ``driven_to_stop``, 1 − F(θ_max) that of ``held``,
-and in between lies an equilibrium. Where g falls, it is Φ(−g / σ_g), and the two change places.
+and in between lies an equilibrium. Where g falls, it is Φ(−s), and the two change places. Where g
+turns it may have several roots, and the one nearest to 0 counts; see `first_root`.
+
 The gradient of the root, on which deviations rest, says nothing of all this near the end of a
 regime.
 """
@@ -21,6 +23,7 @@ from .design import JointDesign
 from .design_gradients import excess_by_design
 from .design_uncertainty import DesignUncertainty
 from .drawn_slip_angles import DrawnSlipAngles
+from .first_root import FirstRoot
 from .gradients import slip_by_tensions
 from .kept import kept
 from .load import UPRIGHT, Load
@@ -30,13 +33,6 @@ from .tensions import Tensions, check_tensions, taut_slip
 
 FAR = 5.0
 """Standard deviations that count as never"""
-
-LAST_STEP = 1e-6
-"""Step to a quantile in rad after which it is there within some 1e-8 rad: of two errors of the
-secant method the next is a product"""
-
-STEPS = 60
-"""To a quantile at the most, should each but halve the range; five or so are taken"""
 
 _NORMAL = NormalDist()
 
@@ -52,8 +48,9 @@ def slip_angle_distribution(
 ) -> SlipAngleDistribution:
     """Return the distribution of the slip angle of a pair of noisy tensions.
 
-    In closed form where the slip function is monotonic and the side of slip is sure; from `DRAWS`
-    draws through `solve_batch` elsewhere. `SlipAngleDistribution.is_closed_form` tells.
+    In closed form where the side of slip is sure; from `DRAWS` draws through `solve_batch` next to
+    equal tensions and to a slack cable, which takes a hundred times as long.
+    `SlipAngleDistribution.is_closed_form` tells.
 
     Parameters
     ----------
@@ -104,11 +101,6 @@ class SlipAngleDistribution:
         self._stop = design.max_bend_angle
 
     @kept
-    def is_closed_form(self) -> bool:
-        """Whether it is worked out in closed form; otherwise from `DRAWS` draws."""
-        return self._is_side_sure and self._direction != 0.0
-
-    @kept
     def _direction(self) -> float:
         """1 where the slip function rises through the range, −1 where it falls, else 0."""
         if not self._slip.is_determined:
@@ -117,9 +109,16 @@ class SlipAngleDistribution:
         least, greatest = slip.slope_bounds(slip.probe(0.0), slip.probe(self._stop))
         return 1.0 if least > 0.0 else -1.0 if greatest < 0.0 else 0.0
 
-    @property
-    def _is_side_sure(self) -> bool:
-        """Whether noise neither turns the stronger cable into the weaker nor ends its tension."""
+    @kept
+    def _root(self) -> FirstRoot:
+        return FirstRoot(self._score, self._stop, is_monotonic=self._direction != 0.0)
+
+    @kept
+    def is_closed_form(self) -> bool:
+        """Whether it is worked out in closed form; otherwise from `DRAWS` draws.
+
+        It is where noise neither turns the stronger cable into the weaker nor ends its tension.
+        """
         weak, strong = sorted(self._tensions)
         spare = min(weak, self._slip.excess / math.sqrt(2.0))
         surest: float = min((strong - weak) / math.sqrt(2.0), spare)
@@ -138,15 +137,11 @@ class SlipAngleDistribution:
         """The probability of each regime."""
         if not self.is_closed_form:
             return {regime: self._drawn.probability(regime) for regime in Regime}
-        at_zero, at_stop = self._at_ends
-        driven, held = at_zero, 1.0 - at_stop
-        if self._direction < 0.0:
-            driven, held = held, driven
         return {
-            Regime.EQUILIBRIUM: max(at_stop - at_zero, 0.0),
-            Regime.HELD: held,
+            Regime.EQUILIBRIUM: self._root.probability,
+            Regime.HELD: _NORMAL.cdf(-self._root.greatest),
             Regime.SLIPPING: 0.0,
-            Regime.DRIVEN_TO_STOP: driven,
+            Regime.DRIVEN_TO_STOP: _NORMAL.cdf(self._root.least),
             Regime.SLACK: 0.0,
         }
 
@@ -154,19 +149,21 @@ class SlipAngleDistribution:
         """Return the probability that the slip angle lies between 0, or before, and an angle.
 
         What is said of a negative angle is said of its mirror image: the slip angle towards
-        cable l, up to that. The whole of one side is 1, of which `probability` of the two other
-        regimes lies before 0 and beyond the stop.
+        cable l, up to that. The whole of one side is 1. Of the two other regimes
+        ``driven_to_stop`` lies before 0 and ``held`` beyond the stop; where the slip function
+        falls all the way it is the other way round.
 
         Parameters
         ----------
         angle : float
             Within the stops, in rad.
         """
-        ahead = self._slip.side * angle
-        if ahead < 0.0 and self.is_closed_form:
+        if not self.is_closed_form:
+            return self._drawn.cdf(angle)
+        ahead: float = self._slip.side * angle
+        if ahead < 0.0:
             return 0.0
-        ahead = min(ahead, self._stop)
-        return self._before(ahead) if self.is_closed_form else self._drawn.cdf(angle)
+        return self._before_zero + self._root.before(min(ahead, self._stop))
 
     def quantile(self, q: float) -> float | None:
         """Return the angle in rad at which `cdf` is q; None where that is in no equilibrium.
@@ -180,28 +177,19 @@ class SlipAngleDistribution:
             raise ValueError(f'q is {q!r}, allowed is between 0 and 1')
         if not self.is_closed_form:
             return self._drawn.quantile(q)
-        score = _NORMAL.inv_cdf(q)
-        at_zero, at_stop = self._ends
-        if not at_zero < score <= at_stop:
-            return None
-        side: float = self._slip.side
-        return side * self._angle_of(score)
+        share = q - self._before_zero
+        return self._angle_of(share) if 0.0 < share <= self._root.probability else None
 
-    def _angle_of(self, score: float) -> float:
-        """Angle ahead in rad at which the score reaches a value between those at its ends."""
-        (low, at_low), (high, at_high) = (0.0, self._ends[0]), (self._stop, self._ends[1])
-        before, ahead = (high, at_high), low + (score - at_low) * (high - low) / (at_high - at_low)
-        for _ in range(STEPS):
-            value = self._score(ahead)
-            low, high = (ahead, high) if value < score else (low, ahead)
-            rise = value - before[1]
-            nearer = ahead + (score - value) * (ahead - before[0]) / rise if rise else math.nan
-            if not low <= nearer <= high:
-                nearer = 0.5 * (low + high)
-            if abs(nearer - ahead) < LAST_STEP:
-                return nearer
-            before, ahead = (ahead, value), nearer
-        return ahead
+    @kept
+    def _before_zero(self) -> float:
+        """What of `cdf` lies before 0."""
+        first = Regime.HELD if self._direction < 0.0 else Regime.DRIVEN_TO_STOP
+        return self.probabilities[first]
+
+    def _angle_of(self, share: float) -> float | None:
+        """Angle in rad up to which roots have a probability."""
+        ahead = self._root.angle_of(share)
+        return None if ahead is None else self._slip.side * ahead
 
     def interval(self, level: float = 0.95) -> tuple[float, float] | None:
         """Return the interval in rad that holds the angle of an equilibrium with a probability.
@@ -222,33 +210,15 @@ class SlipAngleDistribution:
             raise ValueError(f'level is {level!r}, allowed is between 0 and 1')
         if not self.is_closed_form:
             return self._drawn.interval(level)
-        low, high = self._at_ends
+        whole = self._root.probability
         shares = (0.5 * (1.0 - level), 0.5 * (1.0 + level))
-        levels = [low + share * (high - low) for share in shares]
-        if not 0.0 < levels[0] < levels[1] < 1.0:
-            return None
-        one, other = map(self.quantile, levels)
+        one, other = (self._angle_of(whole * share) for share in shares)
         if one is None or other is None:
             return None
         return min(one, other), max(one, other)
 
-    @kept
-    def _ends(self) -> tuple[float, float]:
-        """The score at 0 and at the stop."""
-        return self._score(0.0), self._score(self._stop)
-
-    @kept
-    def _at_ends(self) -> tuple[float, float]:
-        """F at 0 and at the stop."""
-        at_zero, at_stop = self._ends
-        return _NORMAL.cdf(at_zero), _NORMAL.cdf(at_stop)
-
-    def _before(self, ahead: float) -> float:
-        """F at an angle ahead in rad."""
-        return _NORMAL.cdf(self._score(ahead))
-
     def _score(self, ahead: float) -> float:
-        """Return g / σ_g, or its negative where g falls, at an angle ahead in rad."""
+        """Return s = g / σ_g at an angle ahead in rad."""
         slip = self._slip
         point = slip.at(ahead)
         by_tensions = slip_by_tensions(slip, point, self._design.relative_lever)
@@ -259,7 +229,7 @@ class SlipAngleDistribution:
                 lambda other: self._excess_of(other, ahead), self._design, names, slip.total
             )
             variance += self._uncertainty.variance(dict(zip(names, slopes, strict=True)))
-        return self._direction * float(point.excess) / math.sqrt(variance)
+        return float(point.excess) / math.sqrt(variance)
 
     def _excess_of(self, design: JointDesign, ahead: float) -> float:
         """Return g in units of r T for another design, at an angle ahead in rad."""

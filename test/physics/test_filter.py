@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 from designs import PRELIMINARY
-from measure_filter.sessions import UNITS, session
+from measure_filter.sessions import UNITS, session, slip_tension
 from thoroughness import few_of, some_of
 
 from tendon_statics import (
@@ -121,6 +121,17 @@ def test_an_hour_below_slip_leaves_median_and_interval_where_they_were():
     assert after.bend_angle == pytest.approx(before.bend_angle, abs=math.radians(0.1))
     for end, was in zip(after.interval(0.95), before.interval(0.95), strict=True):
         assert end == pytest.approx(was, abs=math.radians(0.1))
+
+
+@pytest.mark.parametrize('seed', [1, 5])
+def test_no_noise_of_a_rest_5_percent_below_slip_moves_a_unit(seed):
+    """At 100 Hz, where few samples lie within the lag; the unit would jump to its stop."""
+    design, weak = UNITS['preliminary']
+    rest = (weak, 0.95 * slip_tension(design, weak, 0.0))
+    found = StickSlipFilter(design, tension_stddev=NOISE)
+    states = fed(found, [rest] * 2000, rate=100.0, seed=seed)
+    for state in states[100:]:  # of the first few samples nothing is sure
+        assert state.interval(0.95) == (0.0, 0.0), state.time
 
 
 def test_a_measured_angle_puts_the_unit_there():

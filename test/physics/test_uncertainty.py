@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from brute import random_case
+from brute import excess, random_case
 from designs import PRELIMINARY
 
 from tendon_statics import (
@@ -58,6 +58,44 @@ def test_probabilities_and_intervals_are_those_of_draws():
     assert closed > 30
     assert closed < 60
     assert intervals > 15
+
+
+def turns(case):
+    """Whether the slip function both rises and falls within the range."""
+    side = -1.0 if case.tension_l > case.tension_s else 1.0
+    angles = np.linspace(0.0, side * case.design.max_bend_angle, 100)
+    slopes = np.diff(excess(case, angles, side))
+    return slopes.max() > 0.0 > slopes.min()
+
+
+def test_where_the_slip_function_turns_the_root_nearest_to_0_counts():
+    """In closed form too, of units that turn within the noise of slipping somewhere."""
+    intervals = tried = 0
+    for seed, (case, stddev) in enumerate(noisy_cases(300, seed=9)):
+        if not turns(case):
+            continue
+        found = slip_angle_distribution(
+            case.design, case.tension_l, case.tension_s, tension_stddev=stddev, load=case.load
+        )
+        if not found.is_closed_form or max(found.probabilities.values()) > 0.99:
+            continue
+        tried += 1
+        answers = drawn(case, stddev, seed)
+        for regime in REGIMES:
+            share = np.mean(answers.regime == REGIME_CODES[regime])
+            assert found.probability(regime) == pytest.approx(share, abs=0.02), (case, regime)
+        rooted = answers.bend_angle[answers.regime == REGIME_CODES[Regime.EQUILIBRIUM]]
+        if len(rooted) > 0.1 * DRAWS:
+            low, high = found.interval(0.9)
+            covered = np.mean((rooted >= low) & (rooted <= high))
+            assert covered == pytest.approx(0.9, abs=0.03), case
+            intervals += 1
+            for share in (0.2, 0.7):
+                angle = found.quantile(found.cdf(0.0) + share * found.probability('equilibrium'))
+                before = np.mean(np.abs(rooted) <= abs(angle))
+                assert before == pytest.approx(share, abs=0.03), case
+    assert tried >= 5
+    assert intervals >= 2
 
 
 def test_the_published_pair():

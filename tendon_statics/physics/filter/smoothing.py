@@ -16,7 +16,10 @@ A line that comes up to a corner is believed for a little too long, since a few 
 do not tell; and a unit would be carried along by a ramp that is seen to go on. But a signal does
 not jump. So where windows before and after a place say different things, it bends between two
 straight pieces that meet, and is the lower of the two where it bends down, the higher where it
-bends up.
+bends up. A rest is not to be taken apart by a corner that noise has made up, though: a place has
+thousands of others like it in a minute, and the less sure of two windows at one of them would
+carry the unit away for good. So one of the two pieces has to be a line beyond doubt, or they have
+to differ beyond doubt.
 
 Samples are counted, not timed: they are taken to follow each other at a steady rate.
 """
@@ -37,10 +40,13 @@ SIZES = np.array([1, 2, 3, 5, 9, 17, 33, 65, 129])
 REACH = int(SIZES[-1])
 """Samples before a place that its windows reach"""
 
-CONFIDENCES = np.array([4.0, 4.0, 3.5, 3.0, 2.5, 2.25, 2.0, 2.0, 2.0])
+CONFIDENCES = np.array([5.0, 5.0, 4.5, 4.0, 3.5, 3.0, 2.5, 2.25, 2.0])
 """Half-widths of the confidence intervals of windows of `SIZES`, in standard errors. There are the
-more narrow windows in a second, so that chance has the more to offer: a rest is not to be torn
-apart by the one sample in thousands that lies far out"""
+more narrow windows in an hour, so that chance has the more to offer, and what is told by one alone
+is the least sure: a rest is not to be torn apart by what is far out once in a million samples"""
+
+SURE = 3.5
+"""Standard errors by which a slope, or the difference of two windows, is one beyond doubt"""
 
 _AROUND, _LINES = 0, slice(3, 5)
 """Kinds of windows: around, before, after, and lines before and after"""
@@ -90,6 +96,7 @@ class Windows:
         # A value takes so much of the sum over the window and of that of samples times numbers,
         self._of_sums = np.array([1.0 / size - tilt * middle, tilt])
         # and the slope of a line so much.
+        self._of_slope = np.where(lined, spread, 0.0).reshape(-1)  # 1 / (its standard error)²
         self._slope_of_sums = (
             np.where(lined, 1.0 / spread, 0.0) * np.array([-middle, 1.0 + 0.0 * middle])
         ).reshape(2, -1)
@@ -148,11 +155,17 @@ class Windows:
         values = value.reshape(signals, -1)
         value = values[series[..., None], taken]
         error = np.hypot(stddev * self._error[taken], values[series[..., None], widest] - value)
-        which = series, self._best(within.reshape(2, signals, -1), taken, value, error), self._at
+        best = self._best(within.reshape(2, signals, -1), taken, value, error, stddev)
+        which = series, best, self._at
         return Estimate(value[which] + base, error[which])
 
     def _best(
-        self, within: Floats, taken: NDArray[np.intp], value: Floats, error: Floats
+        self,
+        within: Floats,
+        taken: NDArray[np.intp],
+        value: Floats,
+        error: Floats,
+        stddev: float,
     ) -> NDArray[np.intp]:
         """Return which kind of window is taken at each place.
 
@@ -162,6 +175,8 @@ class Windows:
             Sums over all windows, shape ``(2, signals, windows)``.
         taken, value, error : ndarray
             Of each kind the window, and what it says, shape ``(signals, kinds, places)``.
+        stddev : float
+            Standard deviation of a sample.
         """
         ends, lines = slice(1, 3), taken[:, _LINES]
         # Before and after the place, whichever of mean and line is the surer.
@@ -172,10 +187,17 @@ class Windows:
         slope = within[0][series, lines] * of_sums[0].take(lines)
         slope += within[1][series, lines] * of_sums[1].take(lines)
         slope *= lined
+        steep = slope * slope * self._of_slope.take(lines) > (SURE * stddev) ** 2
         change, bend = says[:, 1] - says[:, 0], slope[:, 1] - slope[:, 0]
         kinds = np.where(lined, _LINE_KINDS, _MEAN_KINDS)
-        met = np.where((change > 0.0) == (bend < 0.0), kinds[:, 0], kinds[:, 1])
-        corner = (change * change > (sure * sure).sum(axis=1)) & (bend != 0.0)
+        is_before = (change > 0.0) == (bend < 0.0)
+        doubt, change = (sure * sure).sum(axis=1), change * change
+        corner = change > doubt
+        corner &= steep.any(axis=1) | (change > SURE * SURE * doubt)
+        # A single sample tells of no corner.
+        corner &= np.where(is_before, sure[:, 0], sure[:, 1]) < stddev
+        corner &= bend != 0.0
+        met = np.where(is_before, kinds[:, 0], kinds[:, 1])
         best: NDArray[np.intp] = np.where(corner, met, error.argmin(axis=1))
         return best
 

@@ -1,0 +1,120 @@
+"""Where the slip function has its first root, if noise lifts it by so many deviations.
+
+Noise lifts or lowers the slip function g at all angles nearly alike, by so many of its own
+standard deviations σ_g. So with the score s(x) = g(x) / σ_g(x) there is a root at or before x just
+where the noise, a standard normal number, is between the least and the greatest of −s up to there:
+
+    P(there is a root ≤ x) = Φ(max s) − Φ(min s) over [0, x].
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from statistics import NormalDist
+
+LOOKS = 7
+"""Angles from 0 to the stop at which it is seen how a score turns"""
+
+LAST_STEP = 1e-6
+"""rad, to an angle; the next would be a thousandth of it"""
+
+STEPS = 60
+"""To such an angle at the most, should each but halve the range; four or so are taken"""
+
+Knot = tuple[float, float]
+"""An angle ahead in rad, and the score there"""
+
+_NORMAL = NormalDist()
+
+
+class FirstRoot:
+    """The distribution of the root nearest to 0, given a score.
+
+    Parameters
+    ----------
+    score : callable
+        s, of an angle ahead in rad.
+    stop : float
+        θ_max in rad.
+    is_monotonic : bool
+        Whether it rises or falls all the way, so that its ends tell.
+
+    Attributes
+    ----------
+    least, greatest : float
+        The score's range. Below the least the unit is driven to the stop, above the greatest held.
+    """
+
+    def __init__(
+        self, score: Callable[[float], float], stop: float, *, is_monotonic: bool
+    ) -> None:
+        self._score = score
+        looks = 2 if is_monotonic else LOOKS
+        step = stop / (looks - 1)
+        knots = [(step * index, score(step * index)) for index in range(looks - 1)]
+        knots.append((stop, score(stop)))
+        tops = [_top(*three, step) for three in zip(knots, knots[1:], knots[2:], strict=False)]
+        knots += [(angle, score(angle)) for angle in tops if angle is not None]
+        self._knots = sorted(knots)
+        scores = [value for _, value in knots]
+        self.least, self.greatest = min(scores), max(scores)
+
+    @property
+    def probability(self) -> float:
+        """Of a root."""
+        return max(_NORMAL.cdf(self.greatest) - _NORMAL.cdf(self.least), 0.0)
+
+    def before(self, angle: float) -> float:
+        """Probability of a root up to an angle ahead in rad, within the stop."""
+        scores = [score for knot, score in self._knots if knot < angle]
+        scores.append(self._score(angle))
+        return _NORMAL.cdf(max(scores)) - _NORMAL.cdf(min(scores))
+
+    def angle_of(self, probability: float) -> float | None:
+        """Angle ahead in rad up to which roots have a probability; None where they never do."""
+        least = greatest = self._knots[0][1]
+        for one, other in itertools.pairwise(self._knots):
+            # Roots are new only where the score goes beyond what it was before.
+            if other[1] > greatest:
+                greatest = other[1]
+                score = _score_of(_NORMAL.cdf(least) + probability)
+                is_there = score <= greatest
+            elif other[1] < least:
+                least = other[1]
+                score = _score_of(_NORMAL.cdf(greatest) - probability)
+                is_there = score >= least
+            else:
+                continue
+            if is_there:
+                return self._between(one, other, score)
+        return None
+
+    def _between(self, one: Knot, other: Knot, score: float) -> float:
+        """Angle ahead in rad between two knots at which the score is what it is to be."""
+        (low, at_low), (high, at_high) = one, other
+        rises = at_high > at_low
+        before, ahead = other, low + (score - at_low) * (high - low) / (at_high - at_low)
+        for _ in range(STEPS):
+            value = self._score(ahead)
+            low, high = (ahead, high) if (value < score) == rises else (low, ahead)
+            rise = value - before[1]
+            nearer = ahead + (score - value) * (ahead - before[0]) / rise if rise else math.nan
+            if not low <= nearer <= high:
+                nearer = 0.5 * (low + high)
+            if abs(nearer - ahead) < LAST_STEP:
+                return nearer
+            before, ahead = (ahead, value), nearer
+        return ahead
+
+
+def _top(one: Knot, middle: Knot, other: Knot, step: float) -> float | None:
+    """Angle at which a parabola through three knots turns, if it does between them."""
+    to, onwards = middle[1] - one[1], other[1] - middle[1]
+    return middle[0] + 0.5 * step * (to + onwards) / (to - onwards) if to * onwards < 0.0 else None
+
+
+def _score_of(probability: float) -> float:
+    """Φ⁻¹; NaN where rounding leaves none."""
+    return _NORMAL.inv_cdf(probability) if 0.0 < probability < 1.0 else math.nan
