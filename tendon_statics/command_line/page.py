@@ -51,6 +51,7 @@ $style
   h1, h2 { break-after: avoid; }
   thead { display: table-header-group; }
   tr, svg { break-inside: avoid; }
+  svg { width: auto; max-width: 100%; max-height: 16cm; }  /* on a page with some text */
 }
 </style>
 </head>
