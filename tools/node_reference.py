@@ -93,8 +93,8 @@ MEANINGS_OF_ARM = {
     '~/regimes': 'of each joint, for every message, except one whose stamp is late or repeated; '
     'a subscriber with `transient_local` gets the last one at once',
     '~/tip_force': 'the forces on the end of the last unit along `tip_direction` that all joints '
-    "explain, where their angles are known; at most 50 a second, and at most a fifth of the node's "
-    'time',
+    'explain, where their angles are known; at most 50 a second, and at most a fifth of the time '
+    'of the node',
     '~/tip_wrench': 'that force, only while a joint is at the limit of friction and the angles of '
     'all are measured',
     '~/markers': 'for RViz: the units, the angles at which friction can hold each joint while '
