@@ -5,8 +5,8 @@
 # and `jupytext --to notebook examples/calibration.py` makes a notebook of it. It runs as a whole
 # with `python examples/calibration.py`, too.
 #
-# The session travels with the project. It was recorded from a stand-in unit that weighs 24 g, has
-# a cable offset of 4.1 mm and a friction coefficient of 0.92: what the fit is to find.
+# The session comes with the project. It was recorded from a stand-in unit that weighs 24 g, has
+# a cable offset of 4.1 mm and a friction coefficient of 0.92: these are what the fit should find.
 
 # %%
 import sys
