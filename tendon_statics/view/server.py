@@ -62,11 +62,11 @@ class PageServer:
             self._end_loop()
             reason = getattr(error, 'strerror', None) or error
             raise StartError(
-                f'address {address!r} with port {port} is not to be had ({reason}): '
-                'give others, say -p port:=8781'
+                f'address {address!r} with port {port} cannot be used ({reason}): '
+                'choose others, for example -p port:=8781'
             ) from None
         self.port: int = sockets[0].getsockname()[1]
-        # Wrong requests and browsers that went away are nothing that this node is to say.
+        # Bad requests and browsers that went away are not worth a message of this node.
         for name in ('tornado.access', 'bokeh.server.views.ws'):
             logging.getLogger(name).setLevel(logging.ERROR)
         application = BokehTornado(

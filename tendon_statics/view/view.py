@@ -71,8 +71,8 @@ class View(Node):
         self.port = self.server.port
         if address != OWN_MACHINE:
             self.get_logger().warning(
-                f'Whoever reaches {address} can see the page: it has no password, and is not '
-                'encrypted. Through SSH it needs no address but its default'
+                f'Anyone who can reach {address} can see the page: it has no password and is not '
+                'encrypted. Through SSH the default address is enough'
             )
         self.get_logger().info(f'Ready: http://{address}:{self.port}')
 

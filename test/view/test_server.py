@@ -75,7 +75,7 @@ def test_another_address_is_a_warning_and_has_its_own_names():
     with view('port:=0', 'address:=127.0.0.3', 'host:=robot.example') as program:
         url = view_url(program)
         assert url.startswith('http://127.0.0.3:')
-        assert 'Whoever reaches 127.0.0.3 can see the page' in program.output()
+        assert 'Anyone who can reach 127.0.0.3 can see the page' in program.output()
         port = url.rpartition(':')[2]
         for name in ('127.0.0.3', 'robot.example', socket.gethostname()):
             assert answer_to_websocket(url, f'http://{name}:{port}') != REFUSED
@@ -85,7 +85,7 @@ def test_another_address_is_a_warning_and_has_its_own_names():
 def test_no_address_but_its_own_is_no_warning():
     with view('port:=0') as program:
         view_url(program)
-        assert 'Whoever' not in program.output()
+        assert 'Anyone' not in program.output()
 
 
 def assert_refused(program, *named):
