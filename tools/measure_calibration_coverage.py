@@ -132,7 +132,7 @@ def main(arguments: list[str] | None = None) -> int:
     results = list(synthetic_units.run_all(deviations, jobs, options.workers))
     print(
         f'{options.sessions} sessions of 40 slips each\n\n'
-        '| law | sessions | parameter | covered | mean error | spread | not told |\n'
+        '| law | sessions | parameter | covered | mean error | spread | not determined |\n'
         '|---|---|---|--:|--:|--:|--:|'
     )
     for number, condition in enumerate(CONDITIONS):

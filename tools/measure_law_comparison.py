@@ -152,7 +152,7 @@ def main(arguments: list[str] | None = None) -> int:
         counted.update([said, *(['out'] if is_out else [])])
     print(
         f'{options.sessions} sessions of each; percent of them, as {", ".join(LAWS)}\n\n'
-        '| condition | fitted | told, right | told, wrong | truth ruled out |\n'
+        '| condition | fitted | identified, right | identified, wrong | truth ruled out |\n'
         '|---|---|---|---|---|'
     )
     for number in chosen:

@@ -31,8 +31,13 @@ def main() -> int:
     parser.add_argument(
         '--seconds', type=float, default=20.0, help='of each measurement; default: %(default)s'
     )
-    seconds = parser.parse_args().seconds
-    with live_rig(rate=RATE, estimation='tracking') as rig, chromium() as browser:
+    parser.add_argument('--arm', action='store_true', help='of an arm, in place of a unit')
+    options = parser.parse_args()
+    seconds = options.seconds
+    with (
+        live_rig(rate=RATE, estimation='tracking', is_arm=options.arm) as rig,
+        chromium() as browser,
+    ):
         closed, _ = measured(rig, lambda: time.sleep(seconds))
         page = browser.new_page(viewport={'width': 1280, 'height': 900})
         drawings = Drawings(page)

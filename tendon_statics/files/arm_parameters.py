@@ -68,21 +68,21 @@ ARM_NUMBERS: tuple[NumberParameter, ...] = (
     ),
     dataclasses.replace(
         MEASURED_BEND_ANGLE_STDDEV,
-        description='`filtering` and `tip_force`: standard deviation of what comes on '
+        description='`filtering` and `tip_force`: standard deviation of the angles on '
         '`measured_joint_states`',
     ),
     dataclasses.replace(
         CONFIDENCE,
         description='`filtering`: probability with which the intervals in `~/arm_estimate` '
-        'enclose what they are of',
+        'contain the true values',
     ),
     FILTER_LAG,
     TENSION_BIAS_STDDEV,
     INPUT_TIMEOUT,
     dataclasses.replace(
         MAX_SKEW,
-        description='`joint_state` with a part of the cables a message: most that the times of '
-        'the parts may differ in a whole',
+        description='`joint_state` with some of the cables per message: largest difference of '
+        'the times of the messages that are put together',
     ),
     MAX_CLOCK_OFFSET,
     *PLAUSIBILITY,
@@ -95,8 +95,8 @@ ARM_NUMBERS: tuple[NumberParameter, ...] = (
 ARM_VECTORS = (
     dataclasses.replace(
         GRAVITY_DIRECTION,
-        description="direction of gravity in the base's frame, of any length: of `fixed`, and "
-        'until a sensor has said the first',
+        description="direction of gravity in the base's frame, of any length: for `fixed`, and "
+        'until the first message of a sensor',
     ),
     dataclasses.replace(
         IMU_MOUNTING,
@@ -129,21 +129,21 @@ ARM_WIRING: tuple[Parameter, ...] = (
         'estimation',
         ARM_ESTIMATIONS[0],
         'the node remembers where the joints were; `tracking`: it takes each tension as it is; '
-        '`filtering`: for a noisy reading, and says how sure it is, which takes tens of '
-        'milliseconds a message',
+        '`filtering`: it treats tensions as noisy and says how certain it is, which takes tens of '
+        'milliseconds per message',
         choices=ARM_ESTIMATIONS,
     ),
     GRAVITY_SOURCE,
     _said(
         TIP_WRENCH,
-        "whether the force on the end of the last unit comes on `tip_wrench`, in the base's "
-        'frame; else there is none',
+        "whether the force on the end of the last unit is read from `tip_wrench`, in the base's "
+        'frame; otherwise there is none',
     ),
     _said(
         TIP_FORCE,
         'whether there are `~/tip_force`, `~/tip_wrench` and `~/solve_tip_force`: what else '
-        'pushes at the end of the last unit; angles are taken from `measured_joint_states` where '
-        'they come',
+        'pushes at the end of the last unit; angles are those on `measured_joint_states`, if '
+        'there are any',
     ),
     TextParameter(
         'frame_id',

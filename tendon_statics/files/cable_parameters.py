@@ -34,7 +34,7 @@ GAINS = tuple(
     NumberParameter(
         f'{cable}.gain',
         _SCALE.gain,
-        'newtons per unit of what is measured: tension = gain · value + bias',
+        'newtons per unit of the measured value: tension = gain · value + bias',
         minimum=-1e6,
         maximum=1e6,
         unit='N per unit',
@@ -57,7 +57,7 @@ MAX_TENSIONS = tuple(
     NumberParameter(
         f'{cable}.max_tension',
         _SCALE.max_tension,
-        'above it a tension is implausible; set it to what the cable is made for',
+        'a tension above it is implausible; set it to what the cable is made for',
         minimum=0.001,
         maximum=MAX_TENSION,
         unit='N',
@@ -68,8 +68,8 @@ SLACK_THRESHOLDS = tuple(
     NumberParameter(
         f'{cable}.slack_threshold',
         _SCALE.slack_threshold,
-        'up to it the cable is slack, and until its tension exceeds 1.5 times as much; 0: three '
-        'times `tension_stddev`',
+        'the cable is slack up to this tension, and then until it exceeds 1.5 times as much; 0: '
+        'three times `tension_stddev`',
         minimum=0.0,
         maximum=1000.0,
         unit='N',

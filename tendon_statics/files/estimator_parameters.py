@@ -69,7 +69,7 @@ NUMBERS = (
     NumberParameter(
         'initial_bend_angle',
         Settings.initial_bend_angle,
-        'where a unit that is remembered is at the start and after `~/reset`, within its stops',
+        'angle of a remembered unit at the start and after `~/reset`, within its stops',
         minimum=-0.5 * math.pi,
         maximum=0.5 * math.pi,
         unit='rad',
@@ -86,8 +86,8 @@ NUMBERS = (
     NumberParameter(
         'tip_distance',
         Settings.tip_distance,
-        "distance along the unit's axis at which the force of `tip_wrench` acts, and that which "
-        '`tip_force` looks for',
+        "distance along the unit's axis at which the force of `tip_wrench` acts, and the one "
+        'that `tip_force` looks for',
         minimum=-10.0,
         maximum=10.0,
         unit='m',
@@ -108,8 +108,8 @@ LISTS = (
     ListParameter(
         'design_uncertainty.covariance',
         (),
-        'their covariance in SI units, row by row; deviations and probabilities then cover the '
-        'design too',
+        'their covariance in SI units, row by row; standard deviations and probabilities then '
+        'include it',
         of_numbers=True,
     ),
 )
@@ -125,9 +125,9 @@ WIRING = (
         'estimation',
         ESTIMATIONS[0],
         "`equilibrium`: each pair of tensions by itself, the paper's model; `tracking`: the node "
-        'remembers where the unit was, and publishes the angle for every valid message but those '
-        'of slack cables; `filtering`: so it does, and takes each tension for a noisy reading, '
-        'with intervals and probabilities',
+        'remembers where the unit was, and publishes the angle for every valid message except '
+        'with slack cables; `filtering`: the same, but it treats tensions as noisy and gives '
+        'intervals and probabilities',
         choices=ESTIMATIONS,
     ),
     GRAVITY_SOURCE,

@@ -35,7 +35,7 @@ CONFIDENCE = NumberParameter(
 FILTER_LAG = NumberParameter(
     'filter_lag',
     Measuring.filter_lag,
-    '`filtering`: time after which what was found is not taken back any more',
+    '`filtering`: time after which an estimate is final',
     minimum=0.0,
     maximum=10.0,
     unit='s',
@@ -43,8 +43,8 @@ FILTER_LAG = NumberParameter(
 TENSION_BIAS_STDDEV = NumberParameter(
     'tension_bias_stddev',
     Measuring.tension_bias_stddev,
-    '`filtering`: standard deviation of the constant error of each tension, such as what a '
-    'tare leaves over',
+    '`filtering`: standard deviation of the constant error of each tension, such as the '
+    'remaining error after a tare',
     minimum=0.0,
     maximum=1000.0,
     unit='N',
@@ -52,7 +52,7 @@ TENSION_BIAS_STDDEV = NumberParameter(
 MEASURED_BEND_ANGLE_STDDEV = NumberParameter(
     'measured_bend_angle_stddev',
     Measuring.measured_bend_angle_stddev,
-    '`filtering` and `tip_force`: standard deviation of what comes on `measured_bend_angle`',
+    '`filtering` and `tip_force`: standard deviation of the angles on `measured_bend_angle`',
     minimum=1e-6,
     maximum=1.0,
     unit='rad',
@@ -60,7 +60,7 @@ MEASURED_BEND_ANGLE_STDDEV = NumberParameter(
 INPUT_TIMEOUT = NumberParameter(
     'input_timeout',
     Measuring.input_timeout,
-    'without valid tensions for so long the input is stale',
+    'the input is stale after this time without valid tensions',
     minimum=0.001,
     maximum=3600.0,
     unit='s',
@@ -68,8 +68,8 @@ INPUT_TIMEOUT = NumberParameter(
 MAX_SKEW = NumberParameter(
     'max_skew',
     Measuring.max_skew,
-    '`wrench_pair`, and `joint_state` with one cable a message: most that the times of the '
-    'two cables may differ in a pair',
+    '`wrench_pair`, and `joint_state` with one cable per message: largest difference of the '
+    'times of the two cables in a pair',
     minimum=0.0,
     maximum=10.0,
     unit='s',
@@ -77,7 +77,7 @@ MAX_SKEW = NumberParameter(
 MAX_CLOCK_OFFSET = NumberParameter(
     'max_clock_offset',
     Measuring.max_clock_offset,
-    'stamps that differ more from the clock of the node are a warning',
+    'stamps that differ more than this from the clock of the node cause a warning',
     minimum=0.001,
     maximum=1e9,
     unit='s',
@@ -85,8 +85,8 @@ MAX_CLOCK_OFFSET = NumberParameter(
 LOAD_TIMEOUT = NumberParameter(
     'load_timeout',
     Measuring.load_timeout,
-    "without gravity's direction from its sensor, or a tip force, for so long the load is not "
-    'assured',
+    "the load is not assured after this time without gravity's direction from its sensor, or "
+    'without a tip force',
     minimum=0.001,
     maximum=3600.0,
     unit='s',
@@ -94,7 +94,7 @@ LOAD_TIMEOUT = NumberParameter(
 TIP_FORCE_LEVEL = NumberParameter(
     'tip_force_level',
     Measuring.tip_force_level,
-    'rate at which the intervals of `~/tip_force` hold the true force, or more',
+    'rate, or more, at which the intervals of `~/tip_force` contain the true force',
     minimum=0.5,
     maximum=0.9999,
 )
@@ -102,7 +102,7 @@ TARE = (
     NumberParameter(
         'tare_time',
         Measuring.tare_time,
-        '`~/tare` averages over the readings of so long',
+        '`~/tare` averages the readings of this time',
         minimum=0.1,
         maximum=60.0,
         unit='s',
@@ -129,16 +129,16 @@ PLAUSIBILITY = (
     NumberParameter(
         'saturation_count',
         _BELIEVED.saturation_count,
-        'readings in a row at the largest or smallest so far, from which on a cell counts as '
-        'saturated; 0: not checked',
+        'a cell counts as saturated from so many readings in a row at its largest or smallest '
+        'so far; 0: not checked',
         minimum=0,
         maximum=1_000_000,
     ),
     NumberParameter(
         'frozen_count',
         _BELIEVED.frozen_count,
-        'readings in a row that are the same to the last digit, from which on a cell counts as '
-        'frozen; 0: not checked',
+        'a cell counts as frozen from so many readings in a row that are the same to the last '
+        'digit; 0: not checked',
         minimum=0,
         maximum=1_000_000,
     ),
@@ -147,8 +147,8 @@ PLAUSIBILITY = (
 GRAVITY_DIRECTION = VectorParameter(
     'gravity_direction',
     Measuring.gravity_direction,
-    'direction of gravity in the joint frame, of any length: of `fixed`, and until a sensor '
-    'has said the first',
+    'direction of gravity in the joint frame, of any length: for `fixed`, and until the first '
+    'message of a sensor',
 )
 IMU_MOUNTING = VectorParameter(
     'imu_mounting',
@@ -172,26 +172,26 @@ GRAVITY_SOURCE = ChoiceParameter(
 TIP_WRENCH = SwitchParameter(
     'tip_wrench',
     False,
-    'whether the force on the tip comes on `tip_wrench`; else there is none',
+    'whether the force on the tip is read from `tip_wrench`; otherwise there is none',
 )
 TIP_FORCE = SwitchParameter(
     'tip_force',
     False,
     'whether there are `~/tip_force`, `~/tip_wrench` and `~/solve_tip_force`: what else '
-    'pushes at the tip; the angle is taken from `measured_bend_angle` where it comes',
+    'pushes at the tip; the angle is that on `measured_bend_angle`, if there is one',
 )
 MARKERS = SwitchParameter('markers', False, 'whether there is `~/markers`, for RViz')
 EXECUTOR = ChoiceParameter(
     'executor',
     EXECUTORS[0],
     "`single`: rclpy's default executor; `events`: its experimental EventsExecutor, which "
-    'takes less of the processor and does not count lost messages',
+    'takes less CPU time and does not count lost messages',
     choices=EXECUTORS,
 )
 SERVICE_DEPTH = NumberParameter(
     'service_depth',
     1000,
-    'requests that wait at each of its own services while it is busy; more are lost',
+    'requests that may wait at each of its own services while it is busy; more are lost',
     minimum=1,
     maximum=100_000,
     is_fixed=True,
