@@ -1,6 +1,7 @@
 """The examples run as they stand, and say what they are to say."""
 
 import itertools
+import json
 import os
 import subprocess
 import sys
@@ -49,7 +50,10 @@ def example(name):
 
 
 def test_the_notebook_finds_the_stand_in_unit(tmp_path):
-    printed = run_script('calibration.py', tmp_path / 'fitted.yaml', folder=tmp_path)
+    notebook = json.loads((EXAMPLES / 'calibration.ipynb').read_text(encoding='utf-8'))
+    cells = [''.join(of['source']) for of in notebook['cells'] if of['cell_type'] == 'code']
+    (tmp_path / 'notebook.py').write_text('\n\n'.join(cells), encoding='utf-8')
+    printed = run_script(tmp_path / 'notebook.py', folder=tmp_path)
     assert 'no warnings' in printed
     fitted = load_design(tmp_path / 'fitted.yaml')
     assert fitted.mass == pytest.approx(0.024, abs=0.005)
