@@ -207,7 +207,7 @@ class FilterState:
             state = probe[8]
             friction = np.minimum(probe[5], state[0])
             normal = slips.law.normal(state, friction)
-            *_, consistent = slips.law.contact(state, friction, normal)
+            consistent = slips.law.consistent(state, friction)
             force = np.where(consistent, slips.total * normal, np.nan)
         pressures: Floats = force / units.contact_area
         return pressures
