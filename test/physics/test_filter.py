@@ -201,11 +201,11 @@ def test_pressure_comes_with_its_deviation():
 
 
 def test_there_is_no_pressure_where_the_model_stands_behind_none():
-    """A unit that is hardly driven is held with so little friction that Eqs. (1) and (2) do not ask
-    for the root of the law `merged`."""
+    """One that is hardly driven: so little friction asks for the other root of `merged`."""
     pair = (10.0, 10.1)
     truth = StickSlipTracker(PRELIMINARY).update(*pair)
-    assert truth.pressure is None and truth.branch_consistent is False
+    assert truth.pressure is None
+    assert truth.branch_consistent is False
     found = StickSlipFilter(PRELIMINARY, tension_stddev=NOISE)
     for state in (fed(found, [pair] * 150)[-1], found.committed):
         assert state.regime is Regime.HELD
