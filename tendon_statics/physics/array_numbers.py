@@ -27,4 +27,8 @@ def _swapped(condition: Any, one: Any, other: Any) -> tuple[Any, Any]:
     return np.where(condition, other, one), np.where(condition, one, other)
 
 
-ARRAYS = Numbers(np.sqrt, _cosine, _sine, np.where, _ordered, _swapped, np.any)
+def _any(condition: Any) -> bool:
+    return bool(np.count_nonzero(condition))  # in a tenth of the time of `np.any`
+
+
+ARRAYS = Numbers(np.sqrt, _cosine, _sine, np.where, _ordered, _swapped, _any)

@@ -51,7 +51,7 @@ class LoadedJoint(NamedTuple):
         )
 
 
-def loaded_joint(design: JointDesign, load: Load) -> LoadedJoint:
+def loaded_joint(design: JointDesign | StackedDesign, load: Load) -> LoadedJoint:
     """Return a joint under a load; the last of a design is kept, since loads seldom change.
 
     That saves a twelfth of `solve`.

@@ -200,6 +200,18 @@ def test_pressure_comes_with_its_deviation():
     assert state.pressure_stddev > 0.0
 
 
+def test_there_is_no_pressure_where_the_model_stands_behind_none():
+    """One that is hardly driven: so little friction asks for the other root of `merged`."""
+    pair = (10.0, 10.1)
+    truth = StickSlipTracker(PRELIMINARY).update(*pair)
+    assert truth.pressure is None
+    assert truth.branch_consistent is False
+    found = StickSlipFilter(PRELIMINARY, tension_stddev=NOISE)
+    for state in (fed(found, [pair] * 150)[-1], found.committed):
+        assert state.regime is Regime.HELD
+        assert state.pressure is state.pressure_stddev is None
+
+
 @pytest.mark.parametrize(('design', 'pair'), [(PRELIMINARY, (1.0, 3.0)), (HANGING, (3.0, 5.3))])
 def test_the_deviation_of_the_pressure_is_that_of_its_errors(design, pair):
     """At a stop and at rest, where the sum of the tensions tells it."""

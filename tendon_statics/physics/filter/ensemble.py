@@ -11,6 +11,7 @@ from ..design import JointDesign
 from ..design_uncertainty import DesignUncertainty
 from ..draws import draw_designs, draw_normals
 from ..load import DeadLoad, Load
+from ..loaded_joint import LoadedJoint, loaded_joint
 from ..slip import Slip
 from ..stacked_design import StackedDesign
 from .members import slips_of
@@ -63,8 +64,8 @@ class TensionErrors:
         tensions -= self._biases
         return tensions
 
-    def pressing(self, tensions: Floats, error: Floats) -> Floats:
-        """Return the two tensions with which members press a joint, in N.
+    def driving_and_pressing(self, tensions: Floats, error: Floats) -> Floats:
+        """Return the two tensions that drive members, and those with which they press a joint.
 
         The errors by which members differ in their drive leave the sum of the tensions alone. Its
         own error hardly moves a unit, but is most of that of the pressure.
@@ -72,12 +73,19 @@ class TensionErrors:
         Parameters
         ----------
         tensions : ndarray
-            Of members at one sample, shape ``(2, members)``.
+            Of members at one sample in N, shape ``(2, members)``.
         error : ndarray
             Standard errors in N of all tensions that press the joint.
+
+        Returns
+        -------
+        ndarray
+            In N, shape ``(2, 2, members)``, of which the second index tells the two apart.
         """
-        pressing: Floats = tensions + 0.5 * np.hypot.reduce(error) * self.sum_scores
-        return pressing
+        found = np.empty((2, 2, tensions.shape[1]))
+        found[:, 0] = tensions
+        found[:, 1] = tensions + 0.5 * np.hypot.reduce(error) * self.sum_scores
+        return found
 
 
 class Ensemble(TensionErrors):
@@ -129,14 +137,13 @@ class Ensemble(TensionErrors):
         angles: Floats = np.minimum(np.maximum(bend_angle + stddev * self._spread, -stop), stop)
         return angles
 
-    def dead_load(self, loads: list[Load]) -> DeadLoad:
-        """Return what loads mean for the members: of all, or of one a row."""
+    def joint(self, loads: list[Load]) -> LoadedJoint:
+        """Return the members' joints under loads: one for all, or of one load a row."""
         if all(load is loads[0] for load in loads):
-            return loads[0].on(self.units)
+            return loaded_joint(self.units, loads[0])
         parts = zip(*(load.on(self.units) for load in loads), strict=True)
-        return DeadLoad(
-            *(np.array(np.broadcast_arrays(*part)).reshape(len(loads), -1) for part in parts)
-        )
+        dead = (np.array(np.broadcast_arrays(*part)).reshape(len(loads), -1) for part in parts)
+        return LoadedJoint.of(self.units, DeadLoad(*dead))
 
     def slips(self, tensions: Floats, loads: list[Load]) -> Slip:
         """Return slip functions to the side of the last pair's stronger cable.
@@ -150,7 +157,7 @@ class Ensemble(TensionErrors):
         """
         middle = tensions.shape[-1] // 2
         side = 1.0 if tensions[1, -1, middle] >= tensions[0, -1, middle] else -1.0
-        return slips_of(self.units, self.dead_load(loads), tensions, side)
+        return slips_of(self.units, self.joint(loads), tensions, side)
 
 
 class MemberSlips(NamedTuple):
@@ -170,11 +177,11 @@ class MemberSlips(NamedTuple):
 
     def driving(self) -> Slip:
         """Return them at the tensions that drive the members."""
-        return self._at(self.tensions)
+        return self._at(self.tensions[:, None]).part(0)
 
-    def pressing(self) -> Slip:
-        """Return them at the tensions that press their joints, whose sum has its own error."""
-        return self._at(self.ensemble.pressing(self.tensions, self.error))
+    def driving_and_pressing(self) -> Slip:
+        """Return them at those, and at the tensions that press the joints, in a row each."""
+        return self._at(self.ensemble.driving_and_pressing(self.tensions, self.error))
 
     def _at(self, tensions: Floats) -> Slip:
-        return self.ensemble.slips(tensions[:, None], [self.load]).part(0)
+        return self.ensemble.slips(tensions, [self.load] * tensions.shape[1])

@@ -132,12 +132,11 @@ class LaggedFilter(ABC, Generic[State, Place]):
         ages = self._samples.path(settled, self._measured)
         estimate = self._samples.smoothed(ages)
         for row in range(settled):
-            self._judge(samples[row], Estimate(*(part[:, row] for part in estimate)))
+            self._judge(samples[row], estimate.part(row))
         # Those up to a measured angle are in what it was committed to.
         first = min(settled, self._measured)
         loads = [samples[-1 - age].load for age in ages[first:]]
-        rest = Estimate(*(part[:, first:] for part in estimate))
-        paths, path = self._followed(rest, loads, self._committed)
+        paths, path = self._followed(estimate.part(slice(first, None)), loads, self._committed)
         committed = settled - first
         for row in range(committed):
             self._history.append(
@@ -176,6 +175,9 @@ class LaggedFilter(ABC, Generic[State, Place]):
 
     def history(self, time: float) -> State | None:
         """Return the newest committed state that is not after a time in s, if it is kept."""
+        newest = self.committed
+        if newest is None or newest.time <= time:
+            return newest
         index = bisect.bisect_right(self._history, time, key=_time)
         return self._history[index - 1] if index else None
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -10,7 +12,6 @@ from numpy.typing import NDArray
 from ..array_numbers import ARRAYS
 from ..contact.law import map_arrays
 from ..design import JointDesign
-from ..load import DeadLoad
 from ..loaded_joint import LoadedJoint
 from ..roots import refine
 from ..slip import ROUNDING, Slip
@@ -27,7 +28,7 @@ STILL = 1e-9
 
 
 def slips_of(
-    units: JointDesign | StackedDesign, dead: DeadLoad, tensions: Floats, side: float
+    units: JointDesign | StackedDesign, joint: LoadedJoint, tensions: Floats, side: float
 ) -> Slip:
     """Return the slip functions to one side of arrays of tensions.
 
@@ -35,14 +36,13 @@ def slips_of(
     ----------
     units : JointDesign or StackedDesign
         Of all members, or one of each.
-    dead : DeadLoad
-        Of shapes that broadcast to that of the tensions.
+    joint : LoadedJoint
+        Theirs under a dead load, of shapes that broadcast to that of the tensions.
     tensions : ndarray
         T_l and T_s in N, shape ``(2, pairs, members)``; where they do not seat the joint the
         result is NaN.
     """
     tension_l, tension_s = tensions
-    joint = LoadedJoint.of(units, dead)
     if isinstance(units, StackedDesign) or not isinstance(joint.size, float):
         # All arrays of one shape, so that parts can be taken.
         shape = tension_l.shape
@@ -52,7 +52,7 @@ def slips_of(
         )
     excess = tension_l + tension_s - joint.size
     seated = np.minimum(np.minimum(tension_l, tension_s), excess) > 0.0
-    if not seated.all():
+    if np.count_nonzero(seated) < seated.size:
         excess = np.where(seated, excess, np.nan)
     return Slip(joint, excess, tension_l, tension_s, side, ARRAYS)
 
@@ -84,19 +84,23 @@ class Step:
         Them at the angles of the members.
     moves : ndarray
         Whether friction cannot hold it where it was.
-    pressed : ndarray
-        Whether it is driven on against a stop.
     """
 
     def __init__(self, slips: Slip, angles: Floats, stop: Any) -> None:
         probe = slips.probe(slips.side * angles)
         back = probe[5] < 0.0
-        if back.any():
+        if np.count_nonzero(back):
             slips = slips.facing(np.where(back, -1.0, 1.0))
             probe = slips.probe(slips.side * angles)
         self.slips, self.probe = slips, probe
         self.moves: Flags = probe[5] > probe[8][0] * (1.0 + ROUNDING)
-        self.pressed: Flags = self.moves & (slips.side * angles >= stop)
+        self._angles, self._stop = angles, stop
+
+    @cached_property
+    def pressed(self) -> Flags:
+        """Whether each is driven on against a stop."""
+        at_stop: Flags = self.slips.side * self._angles >= self._stop
+        return self.moves & at_stop
 
     @property
     def side(self) -> Floats:
@@ -104,7 +108,7 @@ class Step:
         return np.broadcast_to(self.slips.side, self.moves.shape)
 
 
-def follow(slips: Slip, angles: Floats, stop: Any) -> Floats:
+def follow(slips: Slip, angles: Floats, stop: Any) -> Sequence[Floats]:
     """Follow members through the pairs of a path, one after another.
 
     Parameters
@@ -118,13 +122,16 @@ def follow(slips: Slip, angles: Floats, stop: Any) -> Floats:
 
     Returns
     -------
-    ndarray
-        Where they are at first and after each pair, shape ``(pairs + 1, members)``.
+    sequence of ndarray
+        Where they are at first and after each pair.
     """
     whole = Step(slips, angles, stop)
+    resting = [angles] * (len(whole.moves) + 1)
+    if not np.count_nonzero(whole.moves):
+        return resting
     driven = whole.moves & ~whole.pressed
-    if not driven.any():
-        return np.broadcast_to(angles, (len(driven) + 1, len(angles)))
+    if not np.count_nonzero(driven):
+        return resting
     sides = np.unique(whole.side[driven])
     path = _pushed(slips, angles, stop, sides)
     if path is None and len(sides) == 1:
@@ -132,7 +139,7 @@ def follow(slips: Slip, angles: Floats, stop: Any) -> Floats:
     return _stepped(slips, angles, stop) if path is None else path
 
 
-def _pushed(slips: Slip, angles: Floats, stop: Any, sides: Floats) -> Floats | None:
+def _pushed(slips: Slip, angles: Floats, stop: Any, sides: Floats) -> Sequence[Floats] | None:
     """Follow members that a path pushes ahead of it, whose slip functions fall with the angle.
 
     Each pair then holds one interval of angles, and a member outside is pushed to its end: the
@@ -140,7 +147,7 @@ def _pushed(slips: Slip, angles: Floats, stop: Any, sides: Floats) -> Floats | N
 
     Returns
     -------
-    ndarray or None
+    sequence of ndarray or None
         As `follow` does; None where the functions do not all fall, or members are pushed to a
         side that is not among `sides`.
     """
@@ -159,12 +166,13 @@ def _pushed(slips: Slip, angles: Floats, stop: Any, sides: Floats) -> Floats | N
         for side, end in zip(sides, ends, strict=True):
             angles = np.fmax(angles, end[row]) if side > 0.0 else np.fmin(angles, end[row])
         path.append(angles)
-    found = np.array(path)
-    if len(sides) == 1 and np.any(facing.moment_at(side * found[1:]) < 0.0):
-        after = Step(slips, found[1:], stop)
-        if np.any(after.moves & ~after.pressed & (after.side != side)):
-            return None
-    return found
+    if len(sides) == 1:
+        found = np.array(path[1:])
+        if np.any(facing.moment_at(side * found) < 0.0):
+            after = Step(slips, found, stop)
+            if np.any(after.moves & ~after.pressed & (after.side != side)):
+                return None
+    return path
 
 
 def _root_of_falling(slips: Slip, place: Floats, lowest: float, stop: Any) -> Floats:
@@ -183,7 +191,7 @@ def _root_of_falling(slips: Slip, place: Floats, lowest: float, stop: Any) -> Fl
     return place
 
 
-def _stepped(slips: Slip, angles: Floats, stop: Any) -> Floats:
+def _stepped(slips: Slip, angles: Floats, stop: Any) -> Sequence[Floats]:
     """Follow members pair by pair; as `follow` does."""
     path = [angles]
     for index in range(len(slips.total)):
@@ -194,7 +202,7 @@ def _stepped(slips: Slip, angles: Floats, stop: Any) -> Floats:
             landings = _landings(step.slips.part(moved), angles[moved], _of(stop, moved))
             angles[moved] = landings
         path.append(angles)
-    return np.array(path)
+    return path
 
 
 def _of(stop: Any, which: Flags) -> Any:

@@ -27,7 +27,7 @@ Samples are counted, not timed: they are taken to follow each other at a steady 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,8 +48,9 @@ is the least sure: a rest is not to be torn apart by what is far out once in a m
 SURE = 3.5
 """Standard errors by which a slope, or the difference of two windows, is one beyond doubt"""
 
-_AROUND, _LINES = 0, slice(3, 5)
+_AROUND, _MEANS, _LINES = 0, slice(1, 3), slice(3, 5)
 """Kinds of windows: around, before, after, and lines before and after"""
+KINDS = 5
 _MEAN_KINDS, _LINE_KINDS = np.array([[1], [2]]), np.array([[3], [4]])
 
 
@@ -59,6 +60,10 @@ class Estimate(NamedTuple):
     value: Floats
     error: Floats
     """Standard error, in the unit of the samples"""
+
+    def part(self, places: Any) -> Estimate:
+        """Return it at some of the places, or at one."""
+        return Estimate(self.value[:, places], self.error[:, places])
 
 
 class Windows:
@@ -94,15 +99,16 @@ class Windows:
         spread = np.where(size > 1, size * (size * size - 1.0) / 12.0, 1.0)  # Σ (k − middle)²
         tilt = offset / spread
         # A value takes so much of the sum over the window and of that of samples times numbers,
-        self._of_sums = np.array([1.0 / size - tilt * middle, tilt])
+        self._of_sums = np.array([1.0 / size - tilt * middle, tilt]).reshape(2, -1)
         # and the slope of a line so much.
         self._of_slope = np.where(lined, spread, 0.0).reshape(-1)  # 1 / (its standard error)²
         self._slope_of_sums = (
             np.where(lined, 1.0 / spread, 0.0) * np.array([-middle, 1.0 + 0.0 * middle])
         ).reshape(2, -1)
-        self._first, self._end = first, end
+        self._ends = np.array([first.reshape(-1), end.reshape(-1)])
         error = np.where(there, np.sqrt(1.0 / size + offset * tilt), np.inf)
-        self._half_width = CONFIDENCES[:, None, None] * error
+        self._half_width = (CONFIDENCES[:, None, None] * error).reshape(len(SIZES), -1)
+        self._error = error.reshape(-1)
         self._numbers = np.arange(count)
 
         # Where the n narrowest sizes agree: the widest of them that is there, and that before.
@@ -111,13 +117,12 @@ class Windows:
         for number, is_there in enumerate(there):
             widest[number + 1] = np.where(is_there, number, widest[number])
             taken[number + 1] = np.where(is_there, widest[number], taken[number])
-        self._kinds, self._places = np.ogrid[0 : taken.shape[1], 0 : taken.shape[2]]
-        self._widest, self._taken = (
-            np.ravel_multi_index((one, self._kinds, self._places), size.shape)
-            for one in (widest, taken)
-        )
-        self._at = self._places[0]
-        self._error = error.reshape(-1)
+        self._places = np.arange(len(ages))
+        self._columns = np.arange(KINDS * len(ages))
+        """Numbers of the kinds at each place"""
+        columns = self._columns.reshape(KINDS, -1)
+        self._chosen = (len(self._columns) * np.array([taken, widest]) + columns).reshape(2, -1)
+        """Windows, by how many sizes agree and by column"""
 
     def estimate(self, samples: Floats, stddev: float) -> Estimate:
         """Estimate signals at the places.
@@ -134,30 +139,33 @@ class Windows:
         Estimate
             Of shape ``(signals, places)``.
         """
+        # Arrays are small, so that what counts is how many calls of NumPy there are, and how each
+        # takes elements: by numbers in the flat array, which is the fastest.
         signals, count = samples.shape
         base = samples[:, -1:]
         sums = np.zeros((2, signals, count + 1))
-        centred = samples - base
-        np.cumsum(centred, axis=1, out=sums[0, :, 1:])
-        np.cumsum(centred * self._numbers, axis=1, out=sums[1, :, 1:])
-        within = sums.take(self._end, axis=-1)
-        within -= sums.take(self._first, axis=-1)
-        value = within[0] * self._of_sums[0]
-        value += within[1] * self._of_sums[1]
+        centred = sums[0, :, 1:]
+        np.subtract(samples, base, out=centred)
+        np.multiply(centred, self._numbers, out=sums[1, :, 1:])
+        np.add.accumulate(sums, axis=2, out=sums)
+        at_ends = sums.take(self._ends, axis=2)
+        within = at_ends[:, :, 1] - at_ends[:, :, 0]
+        values = within[0] * self._of_sums[0]
+        values += within[1] * self._of_sums[1]
         # Of each kind, up to which size the intervals have a point in common.
         half_width = stddev * self._half_width
-        lowest = np.maximum.accumulate(value - half_width, axis=1)
-        highest = np.minimum.accumulate(value + half_width, axis=1)
-        agreeing = (lowest <= highest).sum(axis=1)
-        taken = self._taken[agreeing, self._kinds, self._places]
-        widest = self._widest[agreeing, self._kinds, self._places]
-        series = np.arange(signals)[:, None]
-        values = value.reshape(signals, -1)
-        value = values[series[..., None], taken]
-        error = np.hypot(stddev * self._error[taken], values[series[..., None], widest] - value)
-        best = self._best(within.reshape(2, signals, -1), taken, value, error, stddev)
-        which = series, best, self._at
-        return Estimate(value[which] + base, error[which])
+        of_sizes = values.reshape(signals, *half_width.shape)
+        lowest = np.maximum.accumulate(of_sizes - half_width, axis=1)
+        highest = np.minimum.accumulate(of_sizes + half_width, axis=1)
+        agreeing = np.add.reduce(lowest <= highest, axis=1, dtype=np.intp)
+        chosen = self._chosen.take(len(self._columns) * agreeing + self._columns, axis=1)
+        rows = np.arange(signals)[:, None]
+        taken = chosen[0]
+        value, wider = values.take(chosen + len(self._error) * rows)
+        error = np.hypot(stddev * self._error.take(taken), wider - value)
+        best = self._best(within, taken, value, error, stddev)
+        which = len(self._places) * best + self._places + len(self._columns) * rows
+        return Estimate(value.take(which) + base, error.take(which))
 
     def _best(
         self,
@@ -174,32 +182,37 @@ class Windows:
         within : ndarray
             Sums over all windows, shape ``(2, signals, windows)``.
         taken, value, error : ndarray
-            Of each kind the window, and what it says, shape ``(signals, kinds, places)``.
+            Of each kind at each place the window, and what it says, shape ``(signals, columns)``.
         stddev : float
             Standard deviation of a sample.
         """
-        ends, lines = slice(1, 3), taken[:, _LINES]
+        signals = len(value)
+        shape = signals, KINDS, len(self._places)
+        taken, value, error = taken.reshape(shape), value.reshape(shape), error.reshape(shape)
         # Before and after the place, whichever of mean and line is the surer.
-        lined = error[:, _LINES] < error[:, ends]
-        sure = np.where(lined, error[:, _LINES], error[:, ends])
-        says = np.where(lined, value[:, _LINES], value[:, ends])
-        of_sums, series = self._slope_of_sums, np.arange(len(value))[:, None, None]
-        slope = within[0][series, lines] * of_sums[0].take(lines)
-        slope += within[1][series, lines] * of_sums[1].take(lines)
-        slope *= lined
+        lined = error[:, _LINES] < error[:, _MEANS]
+        surest: NDArray[np.intp] = error.argmin(axis=1)
+        if not np.count_nonzero(lined):
+            return surest  # Means have no slope, so that it bends nowhere.
+        sure = np.minimum(error[:, _LINES], error[:, _MEANS])
+        says = np.where(lined, value[:, _LINES], value[:, _MEANS])
+        lines = taken[:, _LINES]
+        series = within.shape[2] * np.arange(signals)[:, None, None]
+        parts = within.reshape(2, -1).take(lines + series, axis=1)
+        parts *= self._slope_of_sums.take(lines, axis=1)
+        slope = (parts[0] + parts[1]) * lined
         steep = slope * slope * self._of_slope.take(lines) > (SURE * stddev) ** 2
         change, bend = says[:, 1] - says[:, 0], slope[:, 1] - slope[:, 0]
-        kinds = np.where(lined, _LINE_KINDS, _MEAN_KINDS)
         is_before = (change > 0.0) == (bend < 0.0)
         doubt, change = (sure * sure).sum(axis=1), change * change
         corner = change > doubt
-        corner &= steep.any(axis=1) | (change > SURE * SURE * doubt)
+        corner &= steep[:, 0] | steep[:, 1] | (change > SURE * SURE * doubt)
         # A single sample tells of no corner.
         corner &= np.where(is_before, sure[:, 0], sure[:, 1]) < stddev
         corner &= bend != 0.0
+        kinds = np.where(lined, _LINE_KINDS, _MEAN_KINDS)
         met = np.where(is_before, kinds[:, 0], kinds[:, 1])
-        best: NDArray[np.intp] = np.where(corner, met, error.argmin(axis=1))
-        return best
+        return np.where(corner, met, surest)
 
 
 class SampleBuffer:

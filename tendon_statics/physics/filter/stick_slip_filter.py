@@ -149,7 +149,7 @@ class StickSlipFilter(LaggedFilter[FilterState, Floats]):
     ) -> tuple[Floats, Sequence[Floats]]:
         paths = self._ensemble.tensions(estimate)
         slips = self._ensemble.slips(paths, loads)
-        return paths, list(follow(slips, start, self._ensemble.stop))
+        return paths, follow(slips, start, self._ensemble.stop)
 
     def _state(
         self,

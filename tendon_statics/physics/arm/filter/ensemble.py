@@ -108,9 +108,9 @@ class JointSlips(NamedTuple):
         """Return them at the tensions that drive the members."""
         return self._at(self.pairs)
 
-    def pressing(self) -> Slip:
-        """Return them at the tensions that press their joints, whose sum has its own error."""
-        return self._at(self.ensemble.pressing(self.pairs, self.error))
+    def driving_and_pressing(self) -> Slip:
+        """Return them at those, and at the tensions that press the joints, in a row each."""
+        return self._at(self.ensemble.driving_and_pressing(self.pairs, self.error))
 
     def _at(self, pairs: Floats) -> Slip:
         dead = self.ensemble.dead(self.load).frozen(self.joint, self.angles)
