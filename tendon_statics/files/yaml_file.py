@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -57,6 +58,24 @@ def read_yaml_text(text: str, *, aliases: bool = True) -> object:
         As there.
     """
     import yaml  # Here, so that the physics can be used where PyYAML is not installed.
+
+    try:
+        return yaml.load(text, _loader(aliases))
+    except YamlFileError:
+        raise
+    except yaml.MarkedYAMLError as error:
+        line = _line_of(error, text)
+        place = f' in line {line}' if line else ''
+        raise YamlFileError(f'it is not valid YAML{place}: {error.problem}') from None
+    except Exception as error:
+        # PyYAML lets through whatever its constructors raise at odd content.
+        raise YamlFileError(f'it is not valid YAML: {" ".join(str(error).split())}') from None
+
+
+@cache
+def _loader(aliases: bool) -> Any:
+    """Return the class that reads; with aliases, or refusing them."""
+    import yaml
 
     class Loader(yaml.SafeLoader):
         """SafeLoader that reads numbers as ROS does and refuses a key given twice."""
@@ -117,17 +136,7 @@ def read_yaml_text(text: str, *, aliases: bool = True) -> object:
             *Loader.yaml_implicit_resolvers.get(first, ()),
         ]
     Loader.add_constructor(_AMBIGUOUS_TAG, Loader.refuse_number)
-    try:
-        return yaml.load(text, Loader)
-    except YamlFileError:
-        raise
-    except yaml.MarkedYAMLError as error:
-        line = _line_of(error, text)
-        place = f' in line {line}' if line else ''
-        raise YamlFileError(f'it is not valid YAML{place}: {error.problem}') from None
-    except Exception as error:
-        # PyYAML lets through whatever its constructors raise at odd content.
-        raise YamlFileError(f'it is not valid YAML: {" ".join(str(error).split())}') from None
+    return Loader
 
 
 def _line_of(error: MarkedYAMLError, text: str) -> int | None:

@@ -16,6 +16,7 @@ import numpy as np
 import pyarrow.dataset
 import pytest
 from bags import write_bag
+from forks import FORKS  # noqa: F401  which says what the server of forks loads
 from make_docs import ROOT
 from programs import TIME_LIMIT
 from pyarrow import parquet

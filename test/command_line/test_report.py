@@ -17,6 +17,7 @@ SESSION = installed_config('recorded_session.mcap')
 SLIPS = ('--motion-step-deg', 3)
 TIMED = 'time,tension_l,tension_s,bend_angle\n0,1,1.5,0\n1,1,1.5,0\n2,1,1.6,0\n'
 UNTIMED = 'tension_l,tension_s,bend_angle\n1,2,0.29\n1,1.5,0\n1,1.6,0\n'
+SLIPPED = 'time,tension_l,tension_s,bend_angle\n0,1,2,0.29\n1,1,2,0.3\n2,1,2.1,0.3\n'
 BACK = 'time,tension_l,tension_s,bend_angle\n2,1,1.5,0\n1,1,1.5,0\n3,1,1.6,0\n'
 
 
@@ -90,7 +91,10 @@ def test_it_says_what_the_error_means_and_what_it_was_fitted_to(tmp_path, estima
     assert 'no test on other data' in text
     assert 'A distance is how far a slipping sample' in text
     assert 'Freedom is how many equations' in text
-    assert 'no test on other data' not in reported(tmp_path, SESSION, *options)[0]
+    unfitted, facts = reported(tmp_path, SLIPPED, *options)
+    assert 'root mean square' in facts['error']
+    assert meaning in unfitted
+    assert 'no test on other data' not in unfitted
 
 
 def test_where_no_angle_was_measured_there_is_no_error_to_explain(tmp_path):

@@ -162,10 +162,15 @@ def test_compressed_files_are_read_in_a_folder_and_by_themselves(tmp_path, plugi
     assert sorted(path.name for path in packed.parent.iterdir()) == [packed.name]
 
 
+@pytest.fixture(scope='module')
+def long_bag(tmp_path_factory):
+    """A file of many blocks of any compression."""
+    return write_bag(tmp_path_factory.mktemp('long') / 'bag', tensions(0, 30_000))
+
+
 @pytest.mark.parametrize('ending', COMPRESSORS)
-def test_of_a_compressed_file_that_was_cut_the_beginning_is_read(tmp_path, ending):
-    file = write_bag(tmp_path / 'bag', tensions(0, 30_000))
-    content = COMPRESSORS[ending](file.read_bytes())
+def test_of_a_compressed_file_that_was_cut_the_beginning_is_read(tmp_path, long_bag, ending):
+    content = COMPRESSORS[ending](long_bag.read_bytes())
     packed = tmp_path / f'run.mcap{ending}'
     packed.write_bytes(content[: int(0.6 * len(content))])
     recording = load_recording(packed)

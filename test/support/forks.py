@@ -8,48 +8,23 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
-from tendon_statics.command_line.main import VERBS
-
 FORKS = multiprocessing.get_context('forkserver')
-# Once for all that are forked. What is missing here is only slower.
+# Once for all that are forked: programs over ROS, and workers on an archive. What is missing here
+# is only slower.
 FORKS.set_forkserver_preload(
     [
-        *(
-            '__main__',
-            *(f'tendon_statics.command_line.{verb.replace("-", "_")}' for verb in VERBS),
-        ),
-        # What a verb loads only once it knows what is asked.
-        *(
-            f'tendon_statics.command_line.{name}'
-            for name in (
-                *(
-                    'laid_out_figure',
-                    'figure_hysteresis',
-                    'figure_map',
-                    'figure_residual',
-                    'figure_unit',
-                ),
-                *('arm_invert', 'arm_margins', 'arm_order', 'arm_plot', 'arm_replay'),
-                *('arm_replay_text', 'arm_report', 'arm_tip_force', 'arm_track'),
-            )
-        ),
+        '__main__',
+        *('tendon_statics.command_line.archive', 'tendon_statics.command_line.archive_study'),
+        *('tendon_statics.node.estimator', 'tendon_statics.node.arm_estimator'),
+        *('tendon_statics.driver.pulley_driver', 'tendon_statics.view.view'),
         *(
             f'tendon_statics.recordings.reading.{name}'
             for name in ('bag_tensions', 'clock_like', 'csv_file')
         ),
-        *('tendon_statics.node.estimator', 'tendon_statics.node.arm_estimator'),
-        *('tendon_statics.driver.pulley_driver', 'tendon_statics.view.view'),
         *('rclpy.executors', 'rclpy.experimental'),
-        *(
-            'matplotlib.figure',
-            'matplotlib.backends.backend_svg',
-            'matplotlib.backends.backend_agg',
-            'matplotlib.backends.backend_pdf',
-        ),
         *('numpy', 'scipy.optimize', 'scipy.special'),
         *('mcap.reader', 'mcap.writer', 'rosbags.serde.primitives'),
         'rosbags.typesys.stores.ros2_jazzy',
-        *(f'PIL.{kind}ImagePlugin' for kind in ('Bmp', 'Gif', 'Jpeg', 'Ppm', 'Png')),
         *('importlib_metadata', 'email.policy'),
         *('pyarrow.parquet', 'tqdm', 'yaml', 'zstandard', 'distributed'),
     ]

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import gc
 import os
+import signal
 import subprocess
 import sys
 import tempfile
-from pathlib import Path
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from typing import IO
 
 from ament_index_python.packages import get_package_prefix
-from forks import FORKS, become
 
 from tendon_statics.command_line.main import main
 
@@ -27,27 +29,61 @@ def run_installed(*arguments: object) -> subprocess.CompletedProcess:
 
 
 def run(*arguments: object) -> subprocess.CompletedProcess:
-    """Run its `main` to the end in a process of its own, forked where all is imported already."""
+    """Run its `main` to the end in this process, with all else as a program has it.
+
+    A fork of a process that has everything loaded would cost as much as ten answers.
+    """
     given = list(map(str, arguments))
-    with tempfile.TemporaryDirectory() as folder:
-        streams = [Path(folder, name) for name in ('stdout', 'stderr')]
-        place = (Path.cwd(), dict(os.environ))
-        process = FORKS.Process(target=_run_main, args=(given, streams, *place))
-        process.start()
-        process.join(TIME_LIMIT)
-        if process.exitcode is None:
-            process.kill()
-            raise TimeoutError(f'{given} took longer than {TIME_LIMIT:.0f} s')
-        output, errors = (stream.read_text(encoding='utf-8') for stream in streams)
-        return subprocess.CompletedProcess(given, process.exitcode, output, errors)
+    with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
+        with _streams_and_warnings_of_a_program(output, errors):
+            code = _exit_code(given)
+        texts = (_text_of(file) for file in (output, errors))
+        return subprocess.CompletedProcess(given, code, *texts)
 
 
-def _run_main(
-    arguments: list[str], streams: list[Path], folder: Path, environment: dict[str, str]
-) -> None:
-    become(streams, folder, environment)
-    gc.disable()  # It ends before there is garbage that counts.
-    sys.exit(main(arguments))
+@contextmanager
+def _streams_and_warnings_of_a_program(output: IO[bytes], errors: IO[bytes]) -> Iterator[None]:
+    """Write to files, warnings too, which pytest collects; `main` may put others in their place.
+
+    It may set what ends a program, too, which is set back.
+    """
+    of_sigterm = signal.getsignal(signal.SIGTERM)
+    try:
+        with (
+            # Other descriptors of the same files, as standard streams are.
+            os.fdopen(os.dup(output.fileno()), 'w', encoding='utf-8') as stdout,
+            os.fdopen(os.dup(errors.fileno()), 'w', encoding='utf-8', buffering=1) as stderr,
+            redirect_stdout(stdout),
+            redirect_stderr(stderr),
+            warnings.catch_warnings(),
+        ):
+            warnings.showwarning = _show_warning
+            warnings.simplefilter('default')
+            for category in _NOT_SHOWN:
+                warnings.simplefilter('ignore', category)
+            yield
+    finally:
+        signal.signal(signal.SIGTERM, of_sigterm)
+
+
+_NOT_SHOWN = (DeprecationWarning, PendingDeprecationWarning, ImportWarning, ResourceWarning)
+"""Warnings that Python shows to nobody unless asked"""
+
+
+def _show_warning(message, category, filename, lineno, file=None, line=None) -> None:  # noqa: ARG001
+    sys.stderr.write(warnings.formatwarning(message, category, filename, lineno, line))
+
+
+def _exit_code(arguments: list[str]) -> int:
+    try:
+        return main(arguments)
+    except SystemExit as end:  # of argparse, after help
+        return end.code or 0
+
+
+def _text_of(file: IO[bytes]) -> str:
+    file.seek(0)
+    return file.read().decode('utf-8')
 
 
 def assert_refused(done: subprocess.CompletedProcess, named: str) -> None:

@@ -7,10 +7,12 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..array_roots import Floats
 from ..design import DesignParameter, JointDesign, design_parameters
 from ..errors import CalibrationError, DesignError
+from ..stacked_design import StackedDesign, stacked
 from .load_cells import AS_MEASURED, CELL_PARAMETERS, LoadCells
 
 if TYPE_CHECKING:
@@ -43,6 +45,32 @@ class Model(NamedTuple):
             dataclasses.replace(self.design, **of_design),  # type: ignore[arg-type]
             self.cells._replace(**of_cells),
         )
+
+
+class Models(NamedTuple):
+    """Several models as one, so that a formula serves all of them at once."""
+
+    design: JointDesign | StackedDesign
+    cells: LoadCells
+    """Each number an array where it is not the same in all"""
+
+    @classmethod
+    def of(cls, models: Sequence[Model]) -> Models:
+        """Return models, at least one, as one."""
+        designs = [model.design for model in models]
+        return cls(
+            StackedDesign(designs) if len(designs) > 1 else designs[0],
+            stacked([model.cells for model in models]),
+        )
+
+
+class Tried(NamedTuple):
+    """What there is of the models that a search tries at once."""
+
+    are_there: NDArray[np.bool_]
+    """Which of them, shape ``(models,)``"""
+    models: Models | None
+    """Those that are there; None where none is"""
 
 
 def fit_parameters() -> tuple[DesignParameter, ...]:
@@ -128,7 +156,14 @@ class ParameterSpace:
             }
         )
 
-    def model_if_any(self, scaled: Floats) -> Model | None:
+    def tried_at(self, scaled: Floats) -> Tried:
+        """Return the models with the parameters, which may be of several, in rows."""
+        asked = [self._model_if_any(row) for row in np.atleast_2d(scaled)]
+        there = [model for model in asked if model is not None]
+        are_there = np.array([model is not None for model in asked])
+        return Tried(are_there, Models.of(there) if there else None)
+
+    def _model_if_any(self, scaled: Floats) -> Model | None:
         """Return the model with the parameters, None where they do not fit together."""
         try:
             return self.model_at(scaled)

@@ -18,7 +18,7 @@ from .identifiability import (
     loss,
     scatter_scale,
 )
-from .parameters import Model, ParameterSpace
+from .parameters import Model, ParameterSpace, Tried
 from .samples import SortedSamples
 
 SCALE_TOLERANCE = 1e-3
@@ -157,7 +157,7 @@ class Problem:
 
     def hold_excesses(self) -> Floats:
         """How far each hold lies beyond the boundary by more than noise explains."""
-        return self._hold_excesses(self.scaled)
+        return self._hold_excesses_of(self.space.tried_at(self.scaled))[:, 0]
 
     def _told_scale(self) -> float:
         """Standard deviation of the noise that the distances tell, as a multiple of the stated."""
@@ -168,33 +168,34 @@ class Problem:
 
         They are NaN where there is no such design, from which the search turns back.
         """
-        parts = [self._equations(scaled), self._hold_excesses(scaled)]
+        tried = self.space.tried_at(scaled)
+        parts = [self._equations_of(tried), self._hold_excesses_of(tried)]
         residuals: Floats = np.concatenate(parts) / self.noise_scale
-        return residuals
+        return residuals if scaled.ndim > 1 else residuals[:, 0]
 
     def _equations(self, scaled: Floats) -> Floats:
+        equations = self._equations_of(self.space.tried_at(scaled))
+        return equations if scaled.ndim > 1 else equations[:, 0]
+
+    def _equations_of(self, tried: Tried) -> Floats:
         samples = self.samples
-        distance = self._distance(scaled, samples.slipping)
+        distance = self._distance(tried, samples.slipping)
         measured = samples.with_pressure[samples.slipping]
         return np.concatenate([distance.standardised, distance.pressure_standardised[measured]])
 
-    def _hold_excesses(self, scaled: Floats) -> Floats:
+    def _hold_excesses_of(self, tried: Tried) -> Floats:
         if not self.samples.counts['holds']:
-            return np.zeros((0, *scaled.shape[:-1]))
-        held = self._distance(scaled, self.samples.held).standardised
+            return np.zeros((0, len(tried.are_there)))
+        held = self._distance(tried, self.samples.held).standardised
         return self.samples.hold_excesses(held, self.noise_scale)
 
-    def _distance(self, scaled: Floats, of: NDArray[np.bool_]) -> BoundaryDistance:
-        """Distances of shape ``(n,)``; of models in the rows of `scaled` one in each column."""
-        rows = np.atleast_2d(scaled)
-        models = [self.space.model_if_any(row) for row in rows]
-        there = [model for model in models if model is not None]
-        found = np.full((4, int(of.sum()), len(rows)), math.nan)
-        if there:
-            is_there = np.array([model is not None for model in models])
-            for values, known in zip(found, self.samples.distances(there, of), strict=True):
-                values[:, is_there] = known
-        return BoundaryDistance(*(found if scaled.ndim > 1 else found[:, :, 0]))
+    def _distance(self, tried: Tried, of: NDArray[np.bool_]) -> BoundaryDistance:
+        """Distances of shape ``(n, models)``."""
+        found = np.full((4, int(of.sum()), len(tried.are_there)), math.nan)
+        if tried.models is not None:
+            for values, known in zip(found, self.samples.distances(tried.models, of), strict=True):
+                values[:, tried.are_there] = known
+        return BoundaryDistance(*found)
 
     def _jacobian(self, function: Callable[[Floats], Floats], scaled: Floats) -> Floats:
         """Derivatives by the scaled parameters, from central differences; 0 for no number."""

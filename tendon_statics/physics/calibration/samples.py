@@ -13,11 +13,10 @@ from ..design import JointDesign
 from ..errors import CalibrationError
 from ..load import UPRIGHT, Load
 from ..sample_loads import SampleLoads, seating_tension
-from ..stacked_design import StackedDesign, stacked
 from ..tensions import MAX_TENSION
 from .boundary_distance import BoundaryDistance, Noise, boundary_distance
 from .measured import Samples
-from .parameters import Model
+from .parameters import Model, Models
 from .result import HELD, SLIPPING
 from .sessions import follow_each_other
 
@@ -190,24 +189,25 @@ class SortedSamples:
 
     def distance(self, model: Model, of: NDArray[np.bool_]) -> BoundaryDistance:
         """Distance of some of the samples from the boundary of a model."""
-        return BoundaryDistance(*(values[:, 0] for values in self.distances([model], of)))
+        return BoundaryDistance(
+            *(values[:, 0] for values in self.distances(Models.of([model]), of))
+        )
 
-    def distances(self, models: Sequence[Model], of: NDArray[np.bool_]) -> BoundaryDistance:
+    def distances(self, models: Models, of: NDArray[np.bool_]) -> BoundaryDistance:
         """Distance of some of the samples from the boundaries of models.
 
         Shape ``(n, models)``, or ``(n, 1)`` if it is the same from all.
         """
         column = np.flatnonzero(of)[:, np.newaxis]
-        designs = [model.design for model in models]
         return boundary_distance(
-            StackedDesign(designs) if len(designs) > 1 else designs[0],
+            models.design,
             self.tension_l[column],
             self.tension_s[column],
             self.bend_angle[column],
             self.pressure[column],
             self.noise,
             self.loads.part(column),
-            stacked([model.cells for model in models]),
+            models.cells,
         )
 
     def hold_excesses(self, held_distances: Floats, scale: float) -> Floats:
