@@ -19,6 +19,7 @@ from .kinds import ARM, UNIT
 from .map_figure import NOT_SEATED, ON_MAP
 from .over_time import local_clock
 from .panels import Panels
+from .ros_job import ros_job
 from .unit_panels import UnitPanels
 from .watch import Watch, Watches
 from .words import REGIMES, STYLE, diagnostics_words, nobody, waiting
@@ -86,7 +87,7 @@ class Page:
         ]
         document.template_variables['tip_colours'] = TIP_COLOURS
         document.js_on_event(ConnectionLost, CustomJS(code="document.body.classList.add('lost')"))
-        document.add_periodic_callback(self.update, round(1e3 / rate))
+        document.add_periodic_callback(ros_job(node.context, self.update), round(1e3 / rate))
         document.on_session_destroyed(lambda _context: self._leave())
 
     # What the person at the page does

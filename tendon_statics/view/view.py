@@ -13,6 +13,7 @@ from ..node.outputs.messages import INTERFACES_MISSING
 from ..node.parameters.declaration import declare_all
 from ..node.parameters.unknown import warn_of_unknown_parameters
 from ..node.program import StartError
+from .ros_job import ros_job
 
 TICK = 0.1
 """Seconds between two looks at signals, services and answers"""
@@ -87,7 +88,7 @@ class View(Node):
 
         jobs = (
             PeriodicCallback(self._tend, 1e3 * TICK),
-            PeriodicCallback(self._poll, 1e3 / self._rate),
+            PeriodicCallback(ros_job(self.context, self._poll), 1e3 / self._rate),
         )
         for job in jobs:
             job.start()
@@ -105,7 +106,7 @@ class View(Node):
             self.server.loop.stop()
 
     def _poll(self) -> None:
-        if self.watches and self.context.ok():
+        if self.watches:
             self.watches.poll()
 
     def destroy_node(self) -> None:
