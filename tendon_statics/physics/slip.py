@@ -16,15 +16,12 @@ law's.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from .contact.law import State, map_arrays
 from .contact.numbers import FLOATS, Numbers, wave_bounds
 from .loaded_joint import LoadedJoint
 from .roots import Bracket, brackets
-
-if TYPE_CHECKING:
-    pass
 
 NEGLIGIBLE_LOAD = 1e-9
 """Share of the tensions below which what turns with the unit moves g too little to determine an

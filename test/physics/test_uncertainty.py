@@ -37,6 +37,20 @@ def drawn(case, stddev, seed):
     return solve_batch(case.design, tensions[0], tensions[1], case.load)
 
 
+def assert_probabilities(found, answers, case):
+    """Assert those of all regimes; return the angles of the draws that are in equilibrium."""
+    for regime in REGIMES:
+        share = np.mean(answers.regime == REGIME_CODES[regime])
+        assert found.probability(regime) == pytest.approx(share, abs=0.02), (case, regime)
+    return answers.bend_angle[answers.regime == REGIME_CODES[Regime.EQUILIBRIUM]]
+
+
+def assert_interval(found, rooted, case):
+    low, high = found.interval(0.9)
+    covered = np.mean((rooted >= low) & (rooted <= high))
+    assert covered == pytest.approx(0.9, abs=0.03), case
+
+
 def test_probabilities_and_intervals_are_those_of_draws():
     """Of random units of every law, tilt, tip force and stiffness."""
     closed = intervals = 0
@@ -45,14 +59,9 @@ def test_probabilities_and_intervals_are_those_of_draws():
             case.design, case.tension_l, case.tension_s, tension_stddev=stddev, load=case.load
         )
         answers = drawn(case, stddev, seed)
-        for regime in REGIMES:
-            share = np.mean(answers.regime == REGIME_CODES[regime])
-            assert found.probability(regime) == pytest.approx(share, abs=0.02), (case, regime)
-        rooted = answers.bend_angle[answers.regime == REGIME_CODES[Regime.EQUILIBRIUM]]
+        rooted = assert_probabilities(found, answers, case)
         if len(rooted) > 0.05 * DRAWS:
-            low, high = found.interval(0.9)
-            covered = np.mean((rooted >= low) & (rooted <= high))
-            assert covered == pytest.approx(0.9, abs=0.03), case
+            assert_interval(found, rooted, case)
             intervals += 1
         closed += found.is_closed_form
     assert closed > 30
@@ -81,14 +90,9 @@ def test_where_the_slip_function_turns_the_root_nearest_to_0_counts():
             continue
         tried += 1
         answers = drawn(case, stddev, seed)
-        for regime in REGIMES:
-            share = np.mean(answers.regime == REGIME_CODES[regime])
-            assert found.probability(regime) == pytest.approx(share, abs=0.02), (case, regime)
-        rooted = answers.bend_angle[answers.regime == REGIME_CODES[Regime.EQUILIBRIUM]]
+        rooted = assert_probabilities(found, answers, case)
         if len(rooted) > 0.1 * DRAWS:
-            low, high = found.interval(0.9)
-            covered = np.mean((rooted >= low) & (rooted <= high))
-            assert covered == pytest.approx(0.9, abs=0.03), case
+            assert_interval(found, rooted, case)
             intervals += 1
             for share in (0.2, 0.7):
                 angle = found.quantile(found.cdf(0.0) + share * found.probability('equilibrium'))

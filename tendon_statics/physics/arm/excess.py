@@ -54,8 +54,8 @@ class Excess:
         self.levers = [design.cable_lever for design in arm.designs]
         self._pairs = self._pairs_of(at_joints)
         self.rounding = self._rounding()
-        self.laws: dict[tuple[int, float], Law] = {}
-        """By joint and side, as they were last"""
+        # By joint and side, as they were last.
+        self._laws: dict[tuple[int, float], Law] = {}
 
     def _rounding(self) -> list[float]:
         """What M of each joint may be wrong by in N m, from the size of all that it is made of."""
@@ -96,12 +96,12 @@ class Excess:
 
     def law(self, joint: int, side: float, pair: Tensions) -> Law:
         """Return the contact law of a joint for slipping to a side."""
-        kept = self.laws.get((joint, side))
+        kept = self._laws.get((joint, side))
         if kept is None or kept[3] is not pair:
             excess = self.carried.excess(joint, pair)
             slip = Slip(self.carried.upright[joint], excess, *pair, side)
             scale = self.arm.designs[joint].ball_radius * slip.total
-            self.laws[joint, side] = kept = slip.law, scale, slip.share, pair
+            self._laws[joint, side] = kept = slip.law, scale, slip.share, pair
         return kept
 
     def by_tensions(self, joint: int, side: float, look: Look) -> list[float]:
@@ -194,15 +194,10 @@ class Look:
 
     def velocities(self, sides: dict[int, float]) -> list[float]:
         """Return f = M − side K in N m of some joints, by their sides."""
-        excess, known, angles = self._excess, self._capacities, self.angles
-        found = []
-        for joint, side in sides.items():
-            capacity = known.get((joint, side)) or self.capacity(joint, side)
-            left, right = self.pairs[joint]
-            moment = (right - left) * excess.levers[joint] + self.turned[joint].real
-            moment -= excess.springs[joint] * angles[joint]
-            found.append(moment - side * capacity[0])
-        return found
+        return [
+            self.moment(joint) - side * self.capacity(joint, side)[0]
+            for joint, side in sides.items()
+        ]
 
     def flow(self, leaning: list[float]) -> list[float]:
         """Return θ' in N m of all joints by the rule of `flow`.
@@ -212,34 +207,11 @@ class Look:
         leaning : list of float
             The side to which a joint does not move, since it is at its stop; 0 if there is none.
         """
-        excess, capacities = self._excess, self._capacities
-        laws, found = excess.laws, []
-        parts = zip(leaning, self.moments(), self.turns, self.pairs, strict=True)
-        for joint, (stopped, moment, turn, pair) in enumerate(parts):
-            side = -1.0 if moment < 0.0 else 1.0
-            if side == stopped:
-                found.append(0.0)
-                continue
-            kept = laws.get((joint, side))
-            if kept is None or kept[3] is not pair:
-                kept = excess.law(joint, side, pair)
-            law, scale, _, _ = kept
-            state = law.at(turn.real, side * turn.imag)
-            capacity = scale * state[0]
-            capacities[joint, side] = capacity, scale * state[1]
-            found.append(moment - side * capacity if side * moment > capacity else 0.0)
+        found = []
+        for joint, stopped in enumerate(leaning):
+            side, excess, _ = self.drive(joint)
+            found.append(side * excess if excess > 0.0 and side != stopped else 0.0)
         return found
-
-    def moments(self) -> list[float]:
-        """Return M in N m of all joints."""
-        excess = self._excess
-        parts = zip(
-            *(self.pairs, self.turned, self.angles, excess.levers, excess.springs), strict=True
-        )
-        return [
-            (right - left) * lever + turned.real - spring * angle
-            for (left, right), turned, angle, lever, spring in parts
-        ]
 
     def drive(self, joint: int) -> tuple[float, float, float]:
         """Side to which M drives, the excess |M| − K in N m, and K."""

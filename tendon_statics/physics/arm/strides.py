@@ -33,7 +33,7 @@ MOST_STRIDES = 200
 MOST_LONGER = 5.0
 """Than one stride the next"""
 
-ASIDE, ALONG = 2e-5, 1e-3
+ERROR_ASIDE, ERROR_ALONG = 2e-5, 1e-3
 """Error of a stride in rad that is accepted, across the motion and along it: how fast it goes is
 of no account, but the velocity at the end tells what is along it for a short way only"""
 
@@ -50,7 +50,7 @@ STAGES: list[Floats] = [
 ]
 """Of the velocities before it, in the way to each stage; the last stage is the end"""
 
-ERROR: Floats = np.array(
+ERROR_WEIGHTS: Floats = np.array(
     [71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40]
 )
 """Of all velocities, in the difference of the two ways"""
@@ -75,7 +75,7 @@ def go_strides(motion: Motion, time: float) -> None:
     highest = np.array(motion.stops)
     lowest = -highest
     angles = np.array(motion.look.angles)
-    velocities: Floats = np.empty((len(ERROR), len(angles)))
+    velocities: Floats = np.empty((len(ERROR_WEIGHTS), len(angles)))
     velocities[0] = motion.look.flow(motion.leaning())
     for _ in range(MOST_STRIDES):
         leaning, look = motion.leaning(), motion.look
@@ -87,9 +87,9 @@ def go_strides(motion: Motion, time: float) -> None:
         far = float(abs(end - angles).max())
         stopped = end != beyond
         last = np.where(stopped, 0.0, velocities[-1])
-        error = np.where(stopped, 0.0, time * ERROR.dot(velocities))
+        error = np.where(stopped, 0.0, time * ERROR_WEIGHTS.dot(velocities))
         aside, along = aside_and_along(error, last)
-        share = max(aside / ASIDE, along / ALONG) if far <= 2.0 * FAR else math.inf
+        share = max(aside / ERROR_ASIDE, along / ERROR_ALONG) if far <= 2.0 * FAR else math.inf
         least = 0.5 * SHORT  # of one that is tried again: what bends sharply is soon behind
         if share <= 1.0:
             motion.set_out_from(look)
