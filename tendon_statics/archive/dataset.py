@@ -103,7 +103,7 @@ class Dataset:
                         'name another folder'
                     ) from None
                 for half in self._samples.glob(f'{KEY}*/.*'):
-                    half.unlink()
+                    half.unlink(missing_ok=True)  # A worker of the killed run may end it now.
                 yield
         except OSError as error:
             raise OutputError(f'{self.folder}: it cannot be written: {error.strerror}') from None

@@ -255,6 +255,8 @@ def test_a_killed_run_leaves_nothing_half_and_the_next_goes_on(
     kept = int(out.split(' were there already')[0].split('; ')[-1])
     assert there <= kept < COUNT
     assert not half.exists()
+    # The worker that was stopped may still be at what the killed run gave it.
+    wait_for('nothing half', lambda: not [*output.glob('samples/*/.*')])
     assert_same(output, dataset)
 
 
@@ -477,6 +479,22 @@ def test_two_at_once_do_not_write_to_one_data_set(tmp_path):
         pass
     with second.held():
         pass
+
+
+def test_what_was_half_may_be_gone_before_it_is_removed(tmp_path, monkeypatch):
+    output = Dataset(tmp_path / 'out')
+    with output.held():
+        half = output.part('a').with_name('.part-12.parquet')
+        half.parent.mkdir()
+        half.touch()
+
+    def unlink(path, unlink=Path.unlink, **options):
+        os.replace(path, path.with_name('part.parquet'))  # as a worker that has written it
+        unlink(path, **options)
+
+    monkeypatch.setattr(Path, 'unlink', unlink)
+    with output.held():
+        assert output.part('a').exists()
 
 
 def test_a_worker_with_another_version_ends_it(tmp_path):
