@@ -489,7 +489,7 @@ def test_what_was_half_may_be_gone_before_it_is_removed(tmp_path, monkeypatch):
         half.touch()
 
     def unlink(path, unlink=Path.unlink, **options):
-        os.replace(path, path.with_name('part.parquet'))  # as a worker that has written it
+        path.replace(path.with_name('part.parquet'))  # as a worker that has written it
         unlink(path, **options)
 
     monkeypatch.setattr(Path, 'unlink', unlink)
