@@ -3,6 +3,7 @@
 import os
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -102,6 +103,7 @@ def cluster():
             n_workers=2,
             threads_per_worker=1,
             dashboard_address='127.0.0.1:0',
+            scheduler_kwargs={'dashboard': False},  # Its pages take long to load.
             silence_logs='CRITICAL',
         ) as cluster,
     ):
@@ -260,6 +262,16 @@ def test_a_killed_run_leaves_nothing_half_and_the_next_goes_on(
     assert_same(output, dataset)
 
 
+@contextmanager
+def dashboard_of_another():
+    """Hold the port at which every other cluster of dask on this machine has its pages."""
+    with socket.socket() as taken:
+        with suppress(OSError):  # Another has it indeed.
+            taken.bind(('127.0.0.1', 8787))
+            taken.listen()
+        yield
+
+
 def test_an_interrupted_run_on_this_machine_ends_in_silence_and_the_next_goes_on(tmp_path, capsys):
     folder, output = tmp_path / 'runs', tmp_path / 'dataset'
     folder.mkdir()
@@ -268,9 +280,12 @@ def test_an_interrupted_run_on_this_machine_ends_in_silence_and_the_next_goes_on
         os.link(folder / '000.mcap', folder / f'{number:03}.mcap')
     given = ['archive', str(folder), '--output', str(output), '--workers', '1']
     program = 'import sys; from tendon_statics.command_line.main import main; sys.exit(main())'
-    with subprocess.Popen(
-        [sys.executable, '-c', program, *given], stderr=subprocess.PIPE, start_new_session=True
-    ) as process:
+    with (
+        dashboard_of_another(),
+        subprocess.Popen(
+            [sys.executable, '-c', program, *given], stderr=subprocess.PIPE, start_new_session=True
+        ) as process,
+    ):
         wait_for_parts(output)
         os.killpg(process.pid, signal.SIGINT)  # as a terminal does
         _, errors = process.communicate(timeout=TIME_LIMIT)
@@ -489,7 +504,7 @@ def test_what_was_half_may_be_gone_before_it_is_removed(tmp_path, monkeypatch):
         half.touch()
 
     def unlink(path, unlink=Path.unlink, **options):
-        os.replace(path, path.with_name('part.parquet'))  # as a worker that has written it
+        path.replace(path.with_name('part.parquet'))  # as a worker that has written it
         unlink(path, **options)
 
     monkeypatch.setattr(Path, 'unlink', unlink)
