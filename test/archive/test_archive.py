@@ -110,12 +110,13 @@ def cluster():
         yield cluster
 
 
-def run(cluster, capsys, *arguments):
-    """Run the verb on the cluster; return exit code, output and errors."""
+def run(cluster, capsys, *arguments, code=0):
+    """Run the verb on the cluster, to this exit code; return output and errors."""
     given = ['archive', *map(str, arguments), '--scheduler', cluster.scheduler_address]
-    code = main(given)
+    ended = main(given)
     captured = capsys.readouterr()
-    return code, captured.out, captured.err
+    assert ended == code, captured.err
+    return captured.out, captured.err
 
 
 @pytest.fixture(scope='module')
@@ -224,9 +225,8 @@ def test_a_killed_worker_loses_nothing(cluster, archive, dataset, tmp_path, caps
     with stopped_worker(cluster) as worker:
         killer = threading.Thread(target=kill)
         killer.start()
-        code, out, _ = run(cluster, capsys, archive, '--output', output)
+        out, _ = run(cluster, capsys, archive, '--output', output, code=1)
         killer.join()
-    assert code == 1
     assert f'{COUNT}; 0 were there already' in out
     assert_same(output, dataset)
 
@@ -252,8 +252,7 @@ def test_a_killed_run_leaves_nothing_half_and_the_next_goes_on(
     there = len([*output.glob('samples/*/part.parquet')])
     for path in output.glob('samples/*/part.parquet'):
         parquet.read_table(path, partitioning=None)
-    code, out, _ = run(cluster, capsys, archive, '--output', output)
-    assert code == 1
+    out, _ = run(cluster, capsys, archive, '--output', output, code=1)
     kept = int(out.split(' were there already')[0].split('; ')[-1])
     assert there <= kept < COUNT
     assert not half.exists()
@@ -289,12 +288,14 @@ def test_an_interrupted_run_on_this_machine_ends_in_silence_and_the_next_goes_on
         wait_for_parts(output)
         os.killpg(process.pid, signal.SIGINT)  # as a terminal does
         _, errors = process.communicate(timeout=TIME_LIMIT)
-    assert process.returncode == 128 + signal.SIGINT
+    assert process.returncode == 128 + signal.SIGINT, errors
     assert errors == b''
     for path in sorted(folder.iterdir())[4:]:
         path.unlink()
-    assert main(given) == 0
-    there = int(capsys.readouterr().out.split('; ')[1].split()[0])
+    code = main(given)
+    captured = capsys.readouterr()
+    assert code == 0, captured.err
+    there = int(captured.out.split('; ')[1].split()[0])
     assert there >= 3
     assert len([name for name in rows(output) if (folder.parent / name).exists()]) == 4
 
@@ -304,8 +305,7 @@ def test_only_what_has_changed_is_done_again(cluster, archive, tmp_path, capsys)
     shutil.copytree(archive / 'day0', folder)
 
     def worked_on(*options):
-        code, out, _ = run(cluster, capsys, folder, '--output', output, *options)
-        assert code == 1
+        out, _ = run(cluster, capsys, folder, '--output', output, *options, code=1)
         return int(out.split('worked on')[1].split(';')[0])
 
     whole = len([*folder.glob('[!.]*.csv')])
@@ -333,12 +333,10 @@ def test_what_is_not_below_the_folders_any_more_stays_and_is_said(cluster, tmp_p
     first, second, output = tmp_path / 'a/runs', tmp_path / 'b/runs', tmp_path / 'dataset'
     write_csv(first / 'one.csv', 1, rows=5)
     write_csv(second / 'one.csv', 2, rows=5)
-    assert run(cluster, capsys, first, '--output', output)[0] == 0
-    code, out, _ = run(cluster, capsys, second / 'one.csv', '--output', output)
-    assert code == 0
+    run(cluster, capsys, first, '--output', output)
+    run(cluster, capsys, second / 'one.csv', '--output', output)
     assert rows(output).keys() == {'runs/one.csv'}  # the same name: it is that one, changed
-    code, out, _ = run(cluster, capsys, first, second, '--output', output)
-    assert code == 0
+    out, _ = run(cluster, capsys, first, second, '--output', output)
     assert rows(output).keys() == {'a/runs/one.csv', 'b/runs/one.csv', 'runs/one.csv'}
     assert '1 of earlier runs' in out
     assert out.endswith(f'wrote {output}\n')
@@ -349,10 +347,9 @@ def test_with_calibrate_there_are_fitted_values_with_their_errors(cluster, tmp_p
     folder.mkdir()
     shutil.copy(SESSION, folder)
     write_csv(folder / 'no_angle.csv', 3, rows=5)
-    code, out, _ = run(
+    out, _ = run(
         cluster, capsys, folder, '--output', output, '--calibrate', '--motion-step-deg', 3
     )
-    assert code == 0
     assert '1 of 2' in out
     fitted = rows(output)['runs/recorded_session.mcap']
     assert 0.0 < fitted['fitted_mass_stderr'] < fitted['fitted_mass']
@@ -416,8 +413,7 @@ def test_a_link_to_nothing_is_listed_and_costs_itself_only(cluster, tmp_path, ca
     }
     for name, target in links.items():
         (folder / name).symlink_to(target)
-    code, _, errors = run(cluster, capsys, folder, '--output', output)
-    assert code == 1
+    _, errors = run(cluster, capsys, folder, '--output', output, code=1)
     statuses = {name: row['status'] for name, row in rows(output).items()}
     assert statuses == {
         'runs/whole.csv': 'whole',

@@ -143,6 +143,6 @@ def test_a_signal_leaves_nothing_half_written_and_no_traceback(tmp_path, number)
         wait_for('the file to be begun', lambda: list(tmp_path.iterdir()))
         process.send_signal(number)
         _, errors = process.communicate(timeout=TIME_LIMIT)
-    assert process.returncode == 128 + number
+    assert process.returncode == 128 + number, errors
     assert errors == ''
     assert list(tmp_path.iterdir()) == []
