@@ -508,6 +508,22 @@ def test_what_was_half_may_be_gone_before_it_is_removed(tmp_path, monkeypatch):
         assert output.part('a').exists()
 
 
+def test_the_folder_of_what_was_half_may_be_gone_before_it_is_looked_into(tmp_path, monkeypatch):
+    output = Dataset(tmp_path / 'out')
+    with output.held():
+        folder = output.part('a').parent
+        folder.mkdir()
+
+    def scandir(path, scandir=os.scandir):
+        if Path(path) == folder:
+            folder.rmdir()  # as a worker to which the recording is damaged
+        return scandir(path)
+
+    monkeypatch.setattr(os, 'scandir', scandir)
+    with output.held():
+        assert not folder.exists()
+
+
 def test_a_worker_with_another_version_ends_it(tmp_path):
     work = Work(tmp_path, 'options', print, version='0.0.1')
     with pytest.raises(ArchiveError, match=r'and this is 0\.0\.1'):

@@ -49,6 +49,22 @@ def test_what_fails_leaves_the_old_file_as_it_was(tmp_path):
     assert stat.S_IMODE(path.stat().st_mode) == 0o600
 
 
+def test_what_another_removes_meanwhile_may_be_written(tmp_path, monkeypatch):
+    path = tmp_path / 'out.csv'
+    path.write_text('old')
+
+    def stat_and_remove(of, stat=Path.stat, **options):
+        found = stat(of, **options)
+        if of == path:
+            path.unlink()
+        return found
+
+    monkeypatch.setattr(Path, 'stat', stat_and_remove)
+    write(path)
+    monkeypatch.undo()
+    assert path.read_text() == 'half'
+
+
 def test_a_link_stays_a_link(tmp_path):
     (tmp_path / 'link.csv').symlink_to(tmp_path / 'out.csv')
     with output_file(tmp_path / 'link.csv') as temporary:
