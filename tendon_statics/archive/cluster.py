@@ -74,7 +74,9 @@ def connected(workers: int | None = None, scheduler: str | None = None) -> Itera
             n_workers=workers or len(os.sched_getaffinity(0)),
             threads_per_worker=1,
             processes=True,
-            dashboard_address=None,  # which takes longer to load than all else
+            # Not a fixed one, which others may have.
+            dashboard_address='127.0.0.1:0',
+            scheduler_kwargs={'dashboard': False},  # Its pages take longer to load than all else.
             silence_logs='CRITICAL',
             preload=[local_worker.__name__],
         )

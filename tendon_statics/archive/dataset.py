@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fcntl
+import glob
 import json
 import shutil
 from collections.abc import Iterator, Mapping
@@ -102,8 +103,10 @@ class Dataset:
                         f'{self.folder}: another archive is being written there; wait for it or '
                         'name another folder'
                     ) from None
-                for half in self._samples.glob(f'{KEY}*/.*'):
-                    half.unlink(missing_ok=True)  # A worker of the killed run may end it now.
+                # A worker of the killed run may end it now, or remove the folder: unlike a
+                # path's own, this `glob` passes over what is gone.
+                for half in glob.glob(f'{KEY}*/.*', root_dir=self._samples):  # noqa: PTH207
+                    (self._samples / half).unlink(missing_ok=True)
                 yield
         except OSError as error:
             raise OutputError(f'{self.folder}: it cannot be written: {error.strerror}') from None

@@ -6,7 +6,8 @@ import argparse
 import math
 from typing import TYPE_CHECKING
 
-from ..physics import StickSlipTracker, admissible_angles, slip_margin
+from ..physics import StickSlipTracker, admissible_angles
+from ..physics.tensions import check_tensions, taut_slip
 from .figures import HOLDS, VERMILION
 from .pair_options import add_pair_options, between, pair_from, setting_title
 
@@ -40,13 +41,11 @@ def draw(drawing: Figure, options: argparse.Namespace) -> None:
     differences = between(-reach, reach, 401)
     stop = design.max_bend_angle
     angles = between(-stop, stop, 121)
-    margins = [
-        [
-            slip_margin(design, *_share(total, difference), angle, load)
-            for difference in differences
-        ]
-        for angle in angles
+    slips = [
+        taut_slip(design, check_tensions(*_share(total, difference)), load)
+        for difference in differences
     ]
+    margins = [[slip.margin(angle) for slip in slips] for angle in angles]
     degrees = [math.degrees(angle) for angle in angles]
     axes.contourf(differences, degrees, margins, levels=[-1.0, 1.0], colors=[HOLDS])
     axes.plot(

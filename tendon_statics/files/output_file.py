@@ -6,7 +6,7 @@ import os
 import secrets
 import stat
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ..physics.errors import TendonStaticsError
@@ -30,12 +30,10 @@ def output_file(path: Path) -> Iterator[Path]:
     """
     path = Path(os.path.realpath(path))
     try:
-        if path.exists() and not path.is_file():
-            raise OutputError(f'{path}: it cannot be written: it is not a file')
+        mode = _mode(path)
         # Named before it is made: an interruption may come as soon as it is there.
         temporary = path.with_name(f'.{path.stem}-{secrets.token_hex(8)}{path.suffix}')
         try:
-            mode = _mode(path)
             os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600))
             temporary.chmod(mode)
             yield temporary
@@ -49,9 +47,18 @@ def output_file(path: Path) -> Iterator[Path]:
 
 
 def _mode(path: Path) -> int:
-    """Permissions of the existing file, or those that a new one gets."""
-    if path.exists():
-        return stat.S_IMODE(path.stat().st_mode)
+    """Permissions of the existing file, or those that a new one gets.
+
+    Raises
+    ------
+    OutputError
+        If something else is there.
+    """
+    with suppress(FileNotFoundError):
+        there = path.stat().st_mode  # At one look, since others may write or remove it.
+        if not stat.S_ISREG(there):
+            raise OutputError(f'{path}: it cannot be written: it is not a file')
+        return stat.S_IMODE(there)
     umask = os.umask(0)
     os.umask(umask)
     return 0o666 & ~umask

@@ -3,6 +3,7 @@
 import os
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -102,18 +103,20 @@ def cluster():
             n_workers=2,
             threads_per_worker=1,
             dashboard_address='127.0.0.1:0',
+            scheduler_kwargs={'dashboard': False},  # Its pages take long to load.
             silence_logs='CRITICAL',
         ) as cluster,
     ):
         yield cluster
 
 
-def run(cluster, capsys, *arguments):
-    """Run the verb on the cluster; return exit code, output and errors."""
+def run(cluster, capsys, *arguments, code=0):
+    """Run the verb on the cluster, to this exit code; return output and errors."""
     given = ['archive', *map(str, arguments), '--scheduler', cluster.scheduler_address]
-    code = main(given)
+    ended = main(given)
     captured = capsys.readouterr()
-    return code, captured.out, captured.err
+    assert ended == code, captured.err
+    return captured.out, captured.err
 
 
 @pytest.fixture(scope='module')
@@ -222,9 +225,8 @@ def test_a_killed_worker_loses_nothing(cluster, archive, dataset, tmp_path, caps
     with stopped_worker(cluster) as worker:
         killer = threading.Thread(target=kill)
         killer.start()
-        code, out, _ = run(cluster, capsys, archive, '--output', output)
+        out, _ = run(cluster, capsys, archive, '--output', output, code=1)
         killer.join()
-    assert code == 1
     assert f'{COUNT}; 0 were there already' in out
     assert_same(output, dataset)
 
@@ -250,14 +252,23 @@ def test_a_killed_run_leaves_nothing_half_and_the_next_goes_on(
     there = len([*output.glob('samples/*/part.parquet')])
     for path in output.glob('samples/*/part.parquet'):
         parquet.read_table(path, partitioning=None)
-    code, out, _ = run(cluster, capsys, archive, '--output', output)
-    assert code == 1
+    out, _ = run(cluster, capsys, archive, '--output', output, code=1)
     kept = int(out.split(' were there already')[0].split('; ')[-1])
     assert there <= kept < COUNT
     assert not half.exists()
     # The worker that was stopped may still be at what the killed run gave it.
     wait_for('nothing half', lambda: not [*output.glob('samples/*/.*')])
     assert_same(output, dataset)
+
+
+@contextmanager
+def dashboard_of_another():
+    """Hold the port at which every other cluster of dask on this machine has its pages."""
+    with socket.socket() as taken:
+        with suppress(OSError):  # Another has it indeed.
+            taken.bind(('127.0.0.1', 8787))
+            taken.listen()
+        yield
 
 
 def test_an_interrupted_run_on_this_machine_ends_in_silence_and_the_next_goes_on(tmp_path, capsys):
@@ -268,18 +279,23 @@ def test_an_interrupted_run_on_this_machine_ends_in_silence_and_the_next_goes_on
         os.link(folder / '000.mcap', folder / f'{number:03}.mcap')
     given = ['archive', str(folder), '--output', str(output), '--workers', '1']
     program = 'import sys; from tendon_statics.command_line.main import main; sys.exit(main())'
-    with subprocess.Popen(
-        [sys.executable, '-c', program, *given], stderr=subprocess.PIPE, start_new_session=True
-    ) as process:
+    with (
+        dashboard_of_another(),
+        subprocess.Popen(
+            [sys.executable, '-c', program, *given], stderr=subprocess.PIPE, start_new_session=True
+        ) as process,
+    ):
         wait_for_parts(output)
         os.killpg(process.pid, signal.SIGINT)  # as a terminal does
         _, errors = process.communicate(timeout=TIME_LIMIT)
-    assert process.returncode == 128 + signal.SIGINT
+    assert process.returncode == 128 + signal.SIGINT, errors
     assert errors == b''
     for path in sorted(folder.iterdir())[4:]:
         path.unlink()
-    assert main(given) == 0
-    there = int(capsys.readouterr().out.split('; ')[1].split()[0])
+    code = main(given)
+    captured = capsys.readouterr()
+    assert code == 0, captured.err
+    there = int(captured.out.split('; ')[1].split()[0])
     assert there >= 3
     assert len([name for name in rows(output) if (folder.parent / name).exists()]) == 4
 
@@ -289,8 +305,7 @@ def test_only_what_has_changed_is_done_again(cluster, archive, tmp_path, capsys)
     shutil.copytree(archive / 'day0', folder)
 
     def worked_on(*options):
-        code, out, _ = run(cluster, capsys, folder, '--output', output, *options)
-        assert code == 1
+        out, _ = run(cluster, capsys, folder, '--output', output, *options, code=1)
         return int(out.split('worked on')[1].split(';')[0])
 
     whole = len([*folder.glob('[!.]*.csv')])
@@ -318,12 +333,10 @@ def test_what_is_not_below_the_folders_any_more_stays_and_is_said(cluster, tmp_p
     first, second, output = tmp_path / 'a/runs', tmp_path / 'b/runs', tmp_path / 'dataset'
     write_csv(first / 'one.csv', 1, rows=5)
     write_csv(second / 'one.csv', 2, rows=5)
-    assert run(cluster, capsys, first, '--output', output)[0] == 0
-    code, out, _ = run(cluster, capsys, second / 'one.csv', '--output', output)
-    assert code == 0
+    run(cluster, capsys, first, '--output', output)
+    run(cluster, capsys, second / 'one.csv', '--output', output)
     assert rows(output).keys() == {'runs/one.csv'}  # the same name: it is that one, changed
-    code, out, _ = run(cluster, capsys, first, second, '--output', output)
-    assert code == 0
+    out, _ = run(cluster, capsys, first, second, '--output', output)
     assert rows(output).keys() == {'a/runs/one.csv', 'b/runs/one.csv', 'runs/one.csv'}
     assert '1 of earlier runs' in out
     assert out.endswith(f'wrote {output}\n')
@@ -334,10 +347,9 @@ def test_with_calibrate_there_are_fitted_values_with_their_errors(cluster, tmp_p
     folder.mkdir()
     shutil.copy(SESSION, folder)
     write_csv(folder / 'no_angle.csv', 3, rows=5)
-    code, out, _ = run(
+    out, _ = run(
         cluster, capsys, folder, '--output', output, '--calibrate', '--motion-step-deg', 3
     )
-    assert code == 0
     assert '1 of 2' in out
     fitted = rows(output)['runs/recorded_session.mcap']
     assert 0.0 < fitted['fitted_mass_stderr'] < fitted['fitted_mass']
@@ -401,8 +413,7 @@ def test_a_link_to_nothing_is_listed_and_costs_itself_only(cluster, tmp_path, ca
     }
     for name, target in links.items():
         (folder / name).symlink_to(target)
-    code, _, errors = run(cluster, capsys, folder, '--output', output)
-    assert code == 1
+    _, errors = run(cluster, capsys, folder, '--output', output, code=1)
     statuses = {name: row['status'] for name, row in rows(output).items()}
     assert statuses == {
         'runs/whole.csv': 'whole',
@@ -495,6 +506,22 @@ def test_what_was_half_may_be_gone_before_it_is_removed(tmp_path, monkeypatch):
     monkeypatch.setattr(Path, 'unlink', unlink)
     with output.held():
         assert output.part('a').exists()
+
+
+def test_the_folder_of_what_was_half_may_be_gone_before_it_is_looked_into(tmp_path, monkeypatch):
+    output = Dataset(tmp_path / 'out')
+    with output.held():
+        folder = output.part('a').parent
+        folder.mkdir()
+
+    def scandir(path, scandir=os.scandir):
+        if Path(path) == folder:
+            folder.rmdir()  # as a worker to which the recording is damaged
+        return scandir(path)
+
+    monkeypatch.setattr(os, 'scandir', scandir)
+    with output.held():
+        assert not folder.exists()
 
 
 def test_a_worker_with_another_version_ends_it(tmp_path):

@@ -49,6 +49,22 @@ def test_what_fails_leaves_the_old_file_as_it_was(tmp_path):
     assert stat.S_IMODE(path.stat().st_mode) == 0o600
 
 
+def test_what_another_removes_meanwhile_may_be_written(tmp_path, monkeypatch):
+    path = tmp_path / 'out.csv'
+    path.write_text('old')
+
+    def stat_and_remove(of, stat=Path.stat, **options):
+        found = stat(of, **options)
+        if of == path:
+            path.unlink()
+        return found
+
+    monkeypatch.setattr(Path, 'stat', stat_and_remove)
+    write(path)
+    monkeypatch.undo()
+    assert path.read_text() == 'half'
+
+
 def test_a_link_stays_a_link(tmp_path):
     (tmp_path / 'link.csv').symlink_to(tmp_path / 'out.csv')
     with output_file(tmp_path / 'link.csv') as temporary:
@@ -143,6 +159,6 @@ def test_a_signal_leaves_nothing_half_written_and_no_traceback(tmp_path, number)
         wait_for('the file to be begun', lambda: list(tmp_path.iterdir()))
         process.send_signal(number)
         _, errors = process.communicate(timeout=TIME_LIMIT)
-    assert process.returncode == 128 + number
+    assert process.returncode == 128 + number, errors
     assert errors == ''
     assert list(tmp_path.iterdir()) == []

@@ -9,7 +9,7 @@ DEFECTIVE = np.array([[-1.0, 1.0, 0.0], [0.0, -1.0, 1.0], [0.0, 0.0, -1.0]])
 """One eigenvector only"""
 
 
-def stepped(jacobian, velocity, remainder, end, time, steps=4000):
+def stepped(jacobian, velocity, remainder, end, time, steps=1000):
     """Return way and velocity at a time, by small steps of Runge and Kutta."""
     step = time / steps
 

@@ -41,23 +41,39 @@ def seat_means(start: float, end: float) -> tuple[float, float, float]:
     return float(lever), float(friction_along * friction_across), float(friction_along)
 
 
+@functools.lru_cache(maxsize=4)
+def _chain(lengths: tuple[float, ...], angles: tuple[float, ...]):
+    """Centres of all joints and the tip, and the direction of each unit's axis, as (x, z)."""
+    x = z = tilt = 0.0
+    centres, axes = [(x, z)], []
+    for length, angle in zip(lengths, angles, strict=True):
+        tilt += angle
+        axis_x, axis_z = math.sin(tilt), math.cos(tilt)
+        x, z = x + length * axis_x, z + length * axis_z
+        centres.append((x, z))
+        axes.append((axis_x, axis_z))
+    return centres, axes
+
+
 class BruteArm:
     """An arm under a load, with what its cables remember."""
 
     def __init__(self, arm: Arm, angles: list[float]) -> None:
         self.arm = arm
+        self._lengths = tuple(unit.length for unit in arm.units)
         self.angles = list(angles)
         self.memory: list[list[float]] | None = None
 
     def pulls(self, tensions: dict[str, float], angles: list[float]) -> list[list[float]]:
         """Tension of each cable at each joint."""
         rows, mu = [], self.arm.cable_friction_coefficient
+        shares = [(math.exp(-mu * abs(angle)), math.exp(mu * abs(angle))) for angle in angles]
         for number, cable in enumerate(self.arm.cables):
             before, row = tensions[cable.name], []
             for joint in range(cable.last_unit):
                 was = before if self.memory is None else self.memory[number][joint]
-                low = before * math.exp(-mu * abs(angles[joint]))
-                high = before * math.exp(mu * abs(angles[joint]))
+                least, most = shares[joint]
+                low, high = before * least, before * most
                 before = low if was < low else high if was > high else was
                 row.append(before)
             rows.append(row)
@@ -76,22 +92,17 @@ class BruteArm:
         """
         units = self.arm.units
         gravity_x, _, gravity_z = load.gravity_direction
+        centres, axes = _chain(self._lengths, tuple(angles))
+        centre_x, centre_z = centres[joint]
+        own_x, own_z = axes[joint]
         # Forces on all that is beyond the joint, and where they act.
-        x = z = tilt = 0.0
         loads = []
-        for i, unit in enumerate(units):
-            if i == joint:
-                centre_x, centre_z = x, z
-            tilt += angles[i]
-            axis_x, axis_z = math.sin(tilt), math.cos(tilt)
-            if i == joint:
-                own_x, own_z = axis_x, axis_z
-            if i >= joint:
-                weight, lever = unit.design.mass * unit.design.gravity, unit.design.com_distance
-                place = x + lever * axis_x, z + lever * axis_z
-                loads.append((weight * gravity_x, weight * gravity_z, *place))
-            x, z = x + unit.length * axis_x, z + unit.length * axis_z
-        loads += [(*load.tip_force, x, z), (*push, x, z)]
+        beyond = zip(units[joint:], centres[joint:-1], axes[joint:], strict=True)
+        for unit, (x, z), (axis_x, axis_z) in beyond:
+            weight, lever = unit.design.mass * unit.design.gravity, unit.design.com_distance
+            place = x + lever * axis_x, z + lever * axis_z
+            loads.append((weight * gravity_x, weight * gravity_z, *place))
+        loads += [(*load.tip_force, *centres[-1]), (*push, *centres[-1])]
         design = units[joint].design
         r = design.ball_radius
         moment, total = -design.stiffness * angles[joint], 0.0

@@ -36,19 +36,18 @@ legendre = functools.cache(np.polynomial.legendre.leggauss)
 def seat_constants(start: float, end: float) -> tuple[float, float, float, float]:
     """k_c, c, q and ⟨cos t⟩ / a by sums over a grid of the seat."""
     nodes, weights = legendre(200)
-    polar = start + 0.5 * (nodes + 1.0) * (end - start)
-    # A quarter of the azimuth stands for all of it.
-    azimuth = 0.25 * np.pi * (nodes + 1.0)
-    t, f = np.meshgrid(polar, azimuth, indexing='ij')
-    share = np.outer(weights * np.sin(polar), weights)
+    # Down a column the polar angle; along a row a quarter of the azimuth, which stands for all.
+    t = (start + 0.5 * (nodes + 1.0) * (end - start))[:, np.newaxis]
+    f = 0.25 * np.pi * (nodes + 1.0)
+    sine, cosine, of_azimuth = np.sin(t), np.cos(t), np.cos(f)
+    share = weights[:, np.newaxis] * sine * weights
     share /= share.sum()
-    rho = np.sqrt(1.0 - np.sin(t) ** 2 * np.sin(f) ** 2)
-    a = (share * np.cos(t) ** 2).sum()
-    b = (share * np.sin(t) ** 2 * np.cos(f) ** 2).sum()
-    s = (share * np.cos(t) ** 2 / rho).sum()
-    q = (share * np.sin(t) ** 2 * np.cos(f) ** 2 / rho).sum()
-    lever = (share * np.cos(t) * rho).sum() / a
-    return float(lever), float(s * q / (a * b)), float(q / b), float((share * np.cos(t)).sum() / a)
+    rho = np.sqrt(1.0 - sine**2 * np.sin(f) ** 2)
+    along, across = share * cosine**2, share * sine**2 * of_azimuth**2
+    a, b = along.sum(), across.sum()
+    s, q = (along / rho).sum(), (across / rho).sum()
+    lever = (share * cosine * rho).sum() / a
+    return float(lever), float(s * q / (a * b)), float(q / b), float((share * cosine).sum() / a)
 
 
 def forces(case: Case, angle):

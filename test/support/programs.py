@@ -25,7 +25,9 @@ TIME_LIMIT = 120.0
 def run_installed(*arguments: object) -> subprocess.CompletedProcess:
     """Run the installed program to its end."""
     command = [*PROGRAM, *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT, check=False)
+    return _shown(
+        subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT, check=False)
+    )
 
 
 def run(*arguments: object) -> subprocess.CompletedProcess:
@@ -38,7 +40,13 @@ def run(*arguments: object) -> subprocess.CompletedProcess:
         with _streams_and_warnings_of_a_program(output, errors):
             code = _exit_code(given)
         texts = (_text_of(file) for file in (output, errors))
-        return subprocess.CompletedProcess(given, code, *texts)
+        return _shown(subprocess.CompletedProcess(given, code, *texts))
+
+
+def _shown(done: subprocess.CompletedProcess) -> subprocess.CompletedProcess:
+    """Write to stderr what a program did there, which pytest shows where the test then fails."""
+    sys.stderr.write(done.stderr)
+    return done
 
 
 @contextmanager

@@ -94,8 +94,6 @@ def boundary_distance(
         moment = slip.moment_at(bend_angle)
         slip = slip.facing(np.where(moment < 0.0, -1.0, 1.0))
         point = slip.at(slip.side * bend_angle)
-        slopes = slip.law.normal_slopes(point.state, point.capacity)
-        normal, _, normal_by_tilt, normal_by_moment = slopes
 
         scale = 1.0 / design.friction_coefficient
         excess = scale * total * point.excess
@@ -105,17 +103,22 @@ def boundary_distance(
         by_behind, by_ahead = by_behind + scale * point.excess, by_ahead + scale * point.excess
         by_angle = scale * total * point.slope
 
-        force_by_behind, force_by_ahead = normal_by_tensions(
-            slip, point, slopes, lever, angle=(0.0, 0.0), at_limit=True
-        )
-        force_by_angle = total * (normal_by_tilt + normal_by_moment * point.by_tilt)
-
         towards_s = slip.side > 0.0
         of_behind = (noise.tension * np.where(towards_s, cells.gain_l, cells.gain_s)) ** 2
         of_ahead = (noise.tension * np.where(towards_s, cells.gain_s, cells.gain_l)) ** 2
         of_angle = noise.bend_angle**2
         variance = of_behind * by_behind**2 + of_ahead * by_ahead**2 + of_angle * by_angle**2
         standardised = excess / np.sqrt(variance)
+        side: Any = slip.side
+        if np.isnan(pressure).all():
+            return BoundaryDistance(excess, standardised, np.full_like(excess, np.nan), side)
+
+        slopes = slip.law.normal_slopes(point.state, point.capacity)
+        normal, _, normal_by_tilt, normal_by_moment = slopes
+        force_by_behind, force_by_ahead = normal_by_tensions(
+            slip, point, slopes, lever, angle=(0.0, 0.0), at_limit=True
+        )
+        force_by_angle = total * (normal_by_tilt + normal_by_moment * point.by_tilt)
 
         # q = p A − N: all its noise but that of p comes with the minus of N.
         area = design.contact_area
@@ -126,5 +129,4 @@ def boundary_distance(
         beyond = pressure * area - total * normal - covariance / variance * excess
         pressure_variance -= covariance**2 / variance
         pressure_standardised = beyond / np.sqrt(pressure_variance)
-    side: Any = slip.side
     return BoundaryDistance(excess, standardised, pressure_standardised, side)

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from ..array_roots import Floats
 from ..errors import CalibrationError
-from .boundary_distance import BoundaryDistance
 from .identifiability import (
     LOSS_SCALE,
     Identification,
@@ -179,23 +178,24 @@ class Problem:
 
     def _equations_of(self, tried: Tried) -> Floats:
         samples = self.samples
-        distance = self._distance(tried, samples.slipping)
+        distances, of_pressures = self._distances(tried, samples.slipping)
         measured = samples.with_pressure[samples.slipping]
-        return np.concatenate([distance.standardised, distance.pressure_standardised[measured]])
+        return np.concatenate([distances, of_pressures[measured]])
 
     def _hold_excesses_of(self, tried: Tried) -> Floats:
         if not self.samples.counts['holds']:
             return np.zeros((0, len(tried.are_there)))
-        held = self._distance(tried, self.samples.held).standardised
+        held, _ = self._distances(tried, self.samples.held)
         return self.samples.hold_excesses(held, self.noise_scale)
 
-    def _distance(self, tried: Tried, of: NDArray[np.bool_]) -> BoundaryDistance:
-        """Distances of shape ``(n, models)``."""
-        found = np.full((4, int(of.sum()), len(tried.are_there)), math.nan)
+    def _distances(self, tried: Tried, of: NDArray[np.bool_]) -> Floats:
+        """Distances in units of noise, and what pressures say beyond, shape ``(2, n, models)``."""
+        found = np.full((2, np.count_nonzero(of), len(tried.are_there)), math.nan)
         if tried.models is not None:
-            for values, known in zip(found, self.samples.distances(tried.models, of), strict=True):
-                values[:, tried.are_there] = known
-        return BoundaryDistance(*found)
+            distance = self.samples.distances(tried.models, of)
+            found[0][:, tried.are_there] = distance.standardised
+            found[1][:, tried.are_there] = distance.pressure_standardised
+        return found
 
     def _jacobian(self, function: Callable[[Floats], Floats], scaled: Floats) -> Floats:
         """Derivatives by the scaled parameters, from central differences; 0 for no number."""

@@ -138,9 +138,10 @@ def _of_one_topic(
     cables = range(len(topics.cable_names))
     if not all(any(of[cable] is not None for of in told) for cable in cables):
         raise RecordingError(_nothing(name, messages, values, topics))
-    ours = [m for m, value in zip(messages, values, strict=True) if not value.is_foreign]
+    by_order = {m.order: value for m, value in zip(messages, values, strict=True)}
+    ours = [message for message in messages if not by_order[message.order].is_foreign]
     ours = without_copies(bag, name, ours)
-    return TensionMessages({name: ours}, {name: [read(message) for message in ours]})
+    return TensionMessages({name: ours}, {name: [by_order[message.order] for message in ours]})
 
 
 def _nothing(

@@ -85,7 +85,7 @@ def cables_in(topics: BagTopics) -> Callable[[Message], NamedValues]:
             needed = ', '.join(topics.needed)
             text = f'{len(data)} values came, [{needed}] is needed'
             return NamedValues(fault=(Reason.WRONG_LENGTH, text))
-        return NamedValues(tuple(map(float, data)))
+        return NamedValues(tuple(data.tolist()))
 
     def joint_state(content: Any) -> NamedValues:
         return cable_values(content.name, content.effort, topics.cable_names)
