@@ -6,6 +6,8 @@ on beyond that, while the arm stays as at the stop. A Runge-Kutta method needs n
 sharply within a step shows in the estimate of its error. This is the pair of orders 5 and 4 by
 Dormand and Prince, J. Comput. Appl. Math. 6 (1980), whose last stage is the first of the next.
 
+What cables with friction remember is that of the way so far, taken for straight within a stride.
+
 It is far cheaper than `legs`, of which one ends at each such event, but short of breath: what dies
 away fast shortens it, as before the rest. So legs go on where strides become short.
 """
@@ -56,12 +58,9 @@ ERROR_WEIGHTS: Floats = np.array(
 """Of all velocities, in the difference of the two ways"""
 
 
-def suits_strides(motion: Motion, leg: Leg) -> bool:
-    """Return whether a motion that begins as a leg is better gone in strides.
-
-    Not where cables have friction, which remembers what happens on the way.
-    """
-    return not (leg.may_rest or motion.rubs) and leg.linear.decay * leg.time <= STIFF
+def suits_strides(leg: Leg) -> bool:
+    """Return whether a motion that begins as a leg is better gone in strides."""
+    return not leg.may_rest and leg.linear.decay * leg.time <= STIFF
 
 
 def go_strides(motion: Motion, time: float) -> None:
