@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .excess import Look
-from .linear_motion import END, NODE, SQUARES, Course, LinearMotion, Path
+from .linear_motion import END, NODE, SQUARES, LinearMotion, Path
 from .motion import TOLERANCE, Motion
 from .rest import NEAR
 
@@ -47,6 +47,12 @@ RATIO = 1.2
 
 MOST_SPAN = 1e9
 """Of the last time that is looked at to the first"""
+
+EARLY = 0.2
+"""Share of a leg in which the path tells too roughly when other joints move"""
+
+MOST_CLOSER = 4
+"""How often that is looked at more closely: what moves at once is always early"""
 
 MOST_TRIALS = 40
 
@@ -93,20 +99,29 @@ class Leg:
 
     def go(self) -> float:
         """Go the leg; return how far in rad the next may be tried, 0 if this was not gone."""
-        motion = self._motion
-        end = min(self.time, self.linear.lifetime)
-        for _ in range(MOST_TRIALS):
-            course = self.linear.course(end)
+        motion, linear = self._motion, self.linear
+        end, error = min(self.time, linear.lifetime), 0.0
+        for trial in range(MOST_TRIALS):
+            course = linear.course(end)
             way = course.way
             if not abs(way).max() <= 2.0 * FAR:
                 end *= 0.1
                 continue
+            if self.may_rest:  # so that nothing changes before the end, were the motion linear
+                look = motion.after(way)
+                bend = linear.bend(end, motion.velocity(look) - linear.velocity_at(way))
+                if abs(bend).max() <= TOLERANCE:
+                    break
+            node = motion.after(course.node)
+            remainder = motion.velocity(node) - linear.velocity_at(course.node)
+            remainder /= SQUARES[NODE]
+            time, way = self._changes.first_way(course.bent(remainder), course.node, node)
+            if time < EARLY * end and trial < MOST_CLOSER:
+                end = 2.0 * time
+                continue
             look = motion.after(way)
-            bend = self.linear.bend(end, motion.velocity(look) - self.linear.velocity_at(way))
-            if abs(bend).max() <= TOLERANCE:
-                error = 0.0
-                break
-            time, way, look, error = self._bent(course, end)
+            velocity = linear.velocity_at(way) + (time / end) ** 2 * remainder
+            error = self._amiss(time, way, velocity, motion.velocity(look) - velocity)
             if error <= 1.0:
                 break
             end = time * (max(0.1, 0.9 * error**-0.25) if error < math.inf else 0.1)
@@ -117,23 +132,10 @@ class Leg:
         far: float = 0.9 * float(abs(way).max()) * max(error, 1e-4) ** -0.25
         return min(FAR, far)
 
-    def _bent(self, course: Course, end: float) -> tuple[float, Floats, Look, float]:
-        """Go a leg that is not linear, to its end or to where other joints move before.
-
-        Return time and way, what is there, and the error as a share of what is accepted.
-        """
-        motion, linear = self._motion, self.linear
-        node = motion.after(course.node)
-        remainder = motion.velocity(node) - linear.velocity_at(course.node)
-        remainder /= SQUARES[NODE]
-        path = course.bent(remainder)
-        time, way = self._changes.first_way(path, course.node, node)
-        look = motion.after(way)
-        velocity = linear.velocity_at(way) + (time / end) ** 2 * remainder
-        error = linear.bend(time, motion.velocity(look) - velocity)
-        aside, along = aside_and_along(error, velocity)
-        share = max(aside / LEG_ERROR, along / (ALONG * float(abs(way).max())))
-        return time, way, look, share
+    def _amiss(self, time: float, way: Floats, velocity: Floats, defect: Floats) -> float:
+        """Return the error of a way, as a share of what is accepted, from that of its velocity."""
+        aside, along = aside_and_along(self.linear.bend(time, defect), velocity)
+        return max(aside / LEG_ERROR, along / (ALONG * float(abs(way).max())))
 
 
 def aside_and_along(error: Floats, velocity: Floats) -> tuple[float, float]:
