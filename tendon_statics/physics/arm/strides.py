@@ -24,7 +24,7 @@ from .motion import Motion
 
 Floats = NDArray[np.float64]
 
-STIFF = 3.0
+STIFF = 2.0
 """λ t up to which what dies away at the rate λ does not shorten a stride of the time t, as about
 where the method is stable"""
 
@@ -35,7 +35,12 @@ MOST_STRIDES = 200
 MOST_LONGER = 5.0
 """Than one stride the next"""
 
-ERROR_ASIDE, ERROR_ALONG = 2e-5, 1e-3
+DAMPING = 0.08
+"""How much the error of the stride before counts for the next: where errors grow from stride to
+stride it is shorter, so that fewer are tried in vain (Gustafsson's control; Hairer and Wanner,
+"Solving Ordinary Differential Equations II", IV.2)"""
+
+ERROR_ASIDE, ERROR_ALONG = 8e-5, 1e-3
 """Error of a stride in rad that is accepted, across the motion and along it: how fast it goes is
 of no account, but the velocity at the end tells what is along it for a short way only"""
 
@@ -76,6 +81,7 @@ def go_strides(motion: Motion, time: float) -> None:
     angles = np.array(motion.look.angles)
     velocities: Floats = np.empty((len(ERROR_WEIGHTS), len(angles)))
     velocities[0] = motion.look.flow(motion.leaning())
+    before = 1.0
     for _ in range(MOST_STRIDES):
         leaning, look = motion.leaning(), motion.look
         for number, weights in enumerate(STAGES, start=1):
@@ -89,11 +95,14 @@ def go_strides(motion: Motion, time: float) -> None:
         error = np.where(stopped, 0.0, time * ERROR_WEIGHTS.dot(velocities))
         aside, along = aside_and_along(error, last)
         share = max(aside / ERROR_ASIDE, along / ERROR_ALONG) if far <= 2.0 * FAR else math.inf
-        least = 0.5 * SHORT  # of one that is tried again: what bends sharply is soon behind
         if share <= 1.0:
             motion.set_out_from(look)
             angles, velocities[0], least = end, last, SHORT
-        longer = min(0.9 * max(share, 1e-6) ** -0.2, MOST_LONGER)
+            longer = 0.9 * max(share, 1e-6) ** (0.75 * DAMPING - 0.2) * before**DAMPING
+            before = max(share, 1e-3)
+        else:  # what bends sharply is soon behind
+            least, longer = 0.5 * SHORT, 0.9 * share**-0.2
+        longer = min(longer, MOST_LONGER)
         if not (motion.moving and far * longer >= least):
             return
         time *= max(min(longer, FAR / far), 1.0 / MOST_LONGER)
