@@ -6,7 +6,8 @@ on beyond that, while the arm stays as at the stop. A Runge-Kutta method needs n
 sharply within a step shows in the estimate of its error. This is the pair of orders 5 and 4 by
 Dormand and Prince, J. Comput. Appl. Math. 6 (1980), whose last stage is the first of the next.
 
-What cables with friction remember is that of the way so far, taken for straight within a stride.
+What cables with friction remember is that of the way so far, taken for straight within a stride;
+but where joints come through the straight, at which the cables forget, it is taken as it bends.
 
 It is far cheaper than `legs`, of which one ends at each such event, but short of breath: what dies
 away fast shortens it, as before the rest. So legs go on where strides become short.
@@ -19,7 +20,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from .excess import Look
 from .legs import FAR, Leg, aside_and_along
+from .linear_motion import Path
 from .motion import Motion
 
 Floats = NDArray[np.float64]
@@ -34,6 +37,9 @@ SHORT = 0.01
 MOST_STRIDES = 200
 MOST_LONGER = 5.0
 """Than one stride the next"""
+
+PARTS = (0.25, 0.5, 0.75)
+"""Of a stride, between which its way is taken for straight where that counts"""
 
 DAMPING = 0.08
 """How much the error of the stride before counts for the next: where errors grow from stride to
@@ -96,6 +102,9 @@ def go_strides(motion: Motion, time: float) -> None:
         aside, along = aside_and_along(error, last)
         share = max(aside / ERROR_ASIDE, along / ERROR_ALONG) if far <= 2.0 * FAR else math.inf
         if share <= 1.0:
+            if motion.rubs and (angles * end < 0.0).any():
+                ends = np.array([angles, end]).T, np.array([velocities[0], last]).T
+                look = _gone_along(motion, Path(np.array([0.0, time]), *ends))
             motion.set_out_from(look)
             angles, velocities[0], least = end, last, SHORT
             longer = 0.9 * max(share, 1e-6) ** (0.75 * DAMPING - 0.2) * before**DAMPING
@@ -106,3 +115,12 @@ def go_strides(motion: Motion, time: float) -> None:
         if not (motion.moving and far * longer >= least):
             return
         time *= max(min(longer, FAR / far), 1.0 / MOST_LONGER)
+
+
+def _gone_along(motion: Motion, path: Path) -> Look:
+    """Let the cables remember the way of a stride as it bends; return what is at its end."""
+    stops = np.array(motion.stops)
+    for part in PARTS:
+        angles = path.way(part * float(path.times[1]), 1)
+        motion.take(motion.look_at(np.clip(angles, -stops, stops).tolist()))
+    return motion.look_at(path.ways[:, 1].tolist())
