@@ -105,6 +105,7 @@ def go_strides(motion: Motion, time: float) -> None:
             if motion.rubs and (angles * end < 0.0).any():
                 ends = np.array([angles, end]).T, np.array([velocities[0], last]).T
                 look = _gone_along(motion, Path(np.array([0.0, time]), *ends))
+                last = np.where(stopped, 0.0, look.flow(leaning))
             motion.set_out_from(look)
             angles, velocities[0], least = end, last, SHORT
             longer = 0.9 * max(share, 1e-6) ** (0.75 * DAMPING - 0.2) * before**DAMPING
