@@ -38,6 +38,10 @@ MOST_STRIDES = 200
 MOST_LONGER = 5.0
 """Than one stride the next"""
 
+PASSING = 0.15
+"""Way in rad of a stride at the most if cables with friction forget on it, as at a joint that comes
+through the straight"""
+
 PARTS = (0.25, 0.5, 0.75)
 """Of a stride, between which its way is taken for straight where that counts"""
 
@@ -101,8 +105,11 @@ def go_strides(motion: Motion, time: float) -> None:
         error = np.where(stopped, 0.0, time * ERROR_WEIGHTS.dot(velocities))
         aside, along = aside_and_along(error, last)
         share = max(aside / ERROR_ASIDE, along / ERROR_ALONG) if far <= 2.0 * FAR else math.inf
+        passes = motion.rubs and bool((angles * end < 0.0).any())
+        if passes:
+            share = max(share, (far / PASSING) ** 5)
         if share <= 1.0:
-            if motion.rubs and (angles * end < 0.0).any():
+            if passes:
                 ends = np.array([angles, end]).T, np.array([velocities[0], last]).T
                 look = _gone_along(motion, Path(np.array([0.0, time]), *ends))
                 last = np.where(stopped, 0.0, look.flow(leaning))
