@@ -39,8 +39,8 @@ MOST_LONGER = 5.0
 """Than one stride the next"""
 
 PASSING = 0.15
-"""Way in rad of a stride at the most if cables with friction forget on it, as at a joint that comes
-through the straight"""
+"""Way in rad of a stride at the most if a joint comes through the straight on it, where cables
+with friction forget"""
 
 PARTS = (0.25, 0.5, 0.75)
 """Of a stride, between which its way is taken for straight where that counts"""
