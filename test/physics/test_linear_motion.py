@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tendon_statics.physics.arm.linear_motion import END, PARTS, LinearMotion
+from tendon_statics.physics.arm.linear_motion import END, NODE, PARTS, SQUARES, LinearMotion
 
 DEFECTIVE = np.array([[-1.0, 1.0, 0.0], [0.0, -1.0, 1.0], [0.0, 0.0, -1.0]])
 """One eigenvector only"""
@@ -55,6 +55,37 @@ def test_a_way_between_two_times_of_a_path_is_where_small_steps_lead(seed):
 
 
 @pytest.mark.parametrize('seed', range(4))
+@pytest.mark.parametrize('end', [1e-3, 0.3, 2.0])
+def test_what_a_remainder_bends_is_the_way_with_it_less_that_without(seed, end):
+    jacobian, velocity, remainder = random_jacobian(seed)
+    linear = LinearMotion(jacobian, velocity)
+    course = linear.course(end)
+    bent = course.bent(remainder).ways[:, END] - course.way
+    assert linear.bend(end, remainder) == pytest.approx(bent, rel=1e-7, abs=1e-12)
+
+
+@pytest.mark.parametrize('seed', range(4))
+def test_half_as_long_a_course_is_thirty_times_as_exact_with_the_remainder_at_its_node(seed):
+    from scipy.integrate import solve_ivp  # Here, as each worker loads this file.
+
+    matrix, start, swing = random_jacobian(seed)
+
+    def rate(way):
+        return start + matrix @ way + swing * np.sin(way) ** 2
+
+    def amiss(end):
+        linear = LinearMotion(matrix, start)
+        course = linear.course(end)
+        remainder = (rate(course.node) - linear.velocity_at(course.node)) / SQUARES[NODE]
+        exact = solve_ivp(
+            lambda _, way: rate(way), (0.0, end), 0.0 * start, rtol=1e-12, atol=1e-14
+        )
+        return abs(course.bent(remainder).ways[:, END] - exact.y[:, -1]).max()
+
+    assert amiss(0.05) < amiss(0.1) / 20.0
+
+
+@pytest.mark.parametrize('seed', range(4))
 def test_it_is_far_when_it_has_gone_that_way(seed):
     jacobian, velocity, _ = random_jacobian(seed)
     linear = LinearMotion(jacobian, velocity)
@@ -72,7 +103,7 @@ def test_what_neither_grows_nor_dies_away_goes_on_evenly():
     linear = LinearMotion(np.zeros((3, 3)), np.array([1.0, 1.0, -2.0]))
     course = linear.course(0.25)
     assert course.way == pytest.approx([0.25, 0.25, -0.5], rel=1e-12)
-    assert course.velocity == pytest.approx([1.0, 1.0, -2.0], rel=1e-12)
+    assert linear.velocity_at(course.way) == pytest.approx([1.0, 1.0, -2.0], rel=1e-12)
     times = linear.times(1e9, 1.2)
     assert times[0] < 0.1 < times[-1] < np.inf
 

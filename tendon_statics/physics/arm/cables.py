@@ -10,6 +10,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..tensions import Tensions
 from .arm import Arm
 
@@ -70,7 +73,11 @@ def pair_at(crossing: Crossing, at: list[float]) -> Tensions:
 
 
 def transmitted(
-    arm: Arm, tensions: list[float], angles: list[float], before: AtJoints | None
+    arm: Arm,
+    tensions: list[float],
+    angles: list[float],
+    before: AtJoints | None,
+    start: list[float] | None = None,
 ) -> AtJoints:
     """Return the tensions at the joints, from those at the base.
 
@@ -81,53 +88,80 @@ def transmitted(
     angles : list of float
         Bend angles in rad.
     before : list of list of float, optional
-        What the tensions at the joints were; None: as at the base, no friction being used.
+        What the tensions at the joints were; None: as at the base, no friction being used. What
+        stays as it was at a joint is the same list.
+    start : list of float, optional
+        Bend angles at which they were that, under the same tensions at the base. It saves time: a
+        band that widens pushes nothing.
     """
     friction = arm.cable_friction_coefficient
     if friction == 0.0:
         return [tensions] * len(angles)
-    at_joints, reaching = [], tensions
+    at_joints, reaching, is_same = [], tensions, start is not None
     ends = [cable.last_unit for cable in arm.cables]
     for number, angle in enumerate(angles, start=1):
         was = reaching if before is None else before[number - 1]
+        if is_same and start and abs(angle) >= abs(start[number - 1]):
+            at_joints.append(was)
+            reaching = was
+            continue
         band = math.exp(friction * abs(angle))
         here = [
-            min(max(old, tension / band), tension * band) if end >= number else tension
+            tension
+            if end < number
+            else tension / band
+            if old < tension / band
+            else tension * band
+            if old > tension * band
+            else old
             for old, tension, end in zip(was, reaching, ends, strict=True)
         ]
-        at_joints.append(here)
-        reaching = here
+        is_same = is_same and here == was
+        reaching = was if is_same else here
+        at_joints.append(reaching)
     return at_joints
+
+
+def transmitted_after(
+    arm: Arm, tensions: list[float], way: tuple[list[float], list[float]], before: AtJoints
+) -> AtJoints:
+    """Return the tensions at the joints after a way that all of them go evenly.
+
+    A joint that passes the straight on it has no band there, and forgets.
+
+    Parameters
+    ----------
+    way : pair of list of float
+        Bend angles in rad at its start, of which `before` is, and at its end.
+    """
+    start, end = way
+    straight = {old / (old - new) for old, new in zip(start, end, strict=True) if old * new < 0.0}
+    for share in sorted(straight):
+        there = [old + share * (new - old) for old, new in zip(start, end, strict=True)]
+        before = transmitted(arm, tensions, there, before, start)
+        start = there
+    return transmitted(arm, tensions, end, before, start)
 
 
 def by_angles(
     arm: Arm, tensions: list[float], angles: list[float], at_joints: AtJoints
-) -> list[list[dict[int, float]]]:
-    """Return ∂T'/∂θ in N/rad, for each joint and cable, by the joints whose guides push it.
+) -> NDArray[np.float64]:
+    """Return ∂T'/∂θ in N/rad of the cables that cross a joint: shape (joints, cables, joints).
 
     Parameters
     ----------
     at_joints : list of list of float
         As `transmitted` has them at these angles.
     """
-    friction = arm.cable_friction_coefficient
-    found: list[list[dict[int, float]]] = []
-    pushed: list[dict[int, float]] = [{} for _ in tensions]  # ∂ ln T'/∂θ
-    reaching = tensions
-    for joint, angle in enumerate(angles):
-        here, band = at_joints[joint], math.exp(friction * abs(angle))
-        for i, (tension, at) in enumerate(zip(reaching, here, strict=True)):
-            if arm.cables[i].last_unit <= joint:
-                continue
-            by_angle = math.copysign(friction, angle) if angle else friction
-            if at == tension * band:
-                pushed[i] = {**pushed[i], joint: by_angle}
-            elif at == tension / band:
-                pushed[i] = {**pushed[i], joint: -by_angle}
-            else:
-                pushed[i] = {}
-        found.append(
-            [{k: at * slope for k, slope in pushed[i].items()} for i, at in enumerate(here)]
-        )
-        reaching = here
+    friction, at = arm.cable_friction_coefficient, np.array(at_joints)
+    bands = np.array([math.exp(friction * abs(angle)) for angle in angles])[:, None]
+    reaching = np.concatenate(([tensions], at[:-1]))
+    up, down = at == reaching * bands, at == reaching / bands
+    ahead = np.where(np.array(angles) < 0.0, -friction, friction)[:, None]
+    own = np.where(up, ahead, np.where(down, -ahead, 0.0))  # ∂ ln T'/∂θ by the joint's own angle
+    joints = np.arange(len(angles))
+    # What is not pushed at a joint does not feel those before it, either there or beyond.
+    unfelt = np.maximum.accumulate(np.where(up | down, -1, joints[:, None]), axis=0)[:, :, None]
+    feels = (joints > unfelt) & (joints <= joints[:, None, None])
+    found: NDArray[np.float64] = np.where(feels, at[:, :, None] * own.T, 0.0)
     return found

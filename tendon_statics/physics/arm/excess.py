@@ -12,7 +12,7 @@ from ..contact.law import LoadedLaw
 from ..slip import Slip
 from ..tensions import Tensions
 from .arm import Arm
-from .cables import AtJoints, Crossing, by_angles, pair_at, transmitted
+from .cables import AtJoints, Crossing, by_angles, pair_at, transmitted_after
 from .carried import Carried
 
 Floats = NDArray[np.float64]
@@ -52,7 +52,10 @@ class Excess:
         self.springs = [design.stiffness for design in arm.designs]
         self._stiffness = np.array(self.springs)
         self.levers = [design.cable_lever for design in arm.designs]
-        self._pairs = self._pairs_of(at_joints)
+        self._angles: list[float] | None = None
+        """Where they were that"""
+        self._pairs = [pair_at(*both) for both in zip(crossing, at_joints, strict=True)]
+        self._turning = self._turning_of(self._pairs)
         self.rounding = self._rounding()
         # By joint and side, as they were last.
         self._laws: dict[tuple[int, float], Law] = {}
@@ -70,29 +73,50 @@ class Excess:
     def at(self, angles: list[float]) -> Look:
         """Look at bend angles in rad."""
         friction = self.arm.cable_friction_coefficient
-        at_joints, pairs = self.at_joints, self._pairs
+        at_joints, pairs, turning = self.at_joints, self._pairs, self._turning
         if friction:
-            at_joints = transmitted(self.arm, self._tensions, angles, at_joints)
+            way = self._angles or angles, angles
+            at_joints = transmitted_after(self.arm, self._tensions, way, at_joints)
             pairs = self._pairs_of(at_joints)
+            turning = self._turning_of(pairs)
         turns = []
         tilt = 0.0
         for angle in angles:
             tilt += angle
             turns.append(cmath.rect(1.0, tilt))
-        turned = 0.0j
-        moments = []
-        for index in range(len(angles) - 1, -1, -1):
-            turned += self.carried.turning[index] * turns[index]
-            moments.append(turned)
-        moments.reverse()
-        return Look(self, angles, turns, moments, pairs, at_joints)
+        beyond = 0.0j
+        turned = []
+        for own, turn in zip(reversed(self.carried.turning), reversed(turns), strict=True):
+            beyond += own * turn
+            turned.append(beyond)
+        turned.reverse()
+        moments = [
+            pull + dead.real - spring * angle
+            for pull, dead, spring, angle in zip(
+                turning, turned, self.springs, angles, strict=True
+            )
+        ]
+        return Look(self, angles, turns, turned, moments, pairs, at_joints)
 
     def remember(self, look: Look) -> None:
         """Take it that the arm has come there, as the friction of the cables remembers."""
-        self.at_joints, self._pairs = look.at_joints, look.pairs
+        if self.arm.cable_friction_coefficient:
+            self.at_joints, self._pairs, self._angles = look.at_joints, look.pairs, look.angles
+            self._turning = self._turning_of(look.pairs)
 
     def _pairs_of(self, at_joints: AtJoints) -> list[Tensions]:
-        return [pair_at(*both) for both in zip(self._crossing, at_joints, strict=True)]
+        return [
+            pair if at is was else pair_at(crossing, at)
+            for crossing, at, was, pair in zip(
+                self._crossing, at_joints, self.at_joints, self._pairs, strict=True
+            )
+        ]
+
+    def _turning_of(self, pairs: list[Tensions]) -> list[float]:
+        """M in N m that the cables alone make at each joint."""
+        return [
+            (right - left) * lever for (left, right), lever in zip(pairs, self.levers, strict=True)
+        ]
 
     def law(self, joint: int, side: float, pair: Tensions) -> Law:
         """Return the contact law of a joint for slipping to a side."""
@@ -144,20 +168,24 @@ class Excess:
         rows -= slopes[:, None] * (others <= joints)
         rows -= self._stiffness[joints] * (others == joints)
         if self.arm.cable_friction_coefficient:
-            pushed = by_angles(self.arm, self._tensions, look.angles, look.at_joints)
-            for row, (i, side) in zip(rows, moving.items(), strict=True):
-                gains = self.by_tensions(i, side, look)
-                for cable in self._crossing[i].left + self._crossing[i].right:
-                    for j, slope in pushed[i][cable].items():
-                        if j in by:
-                            row[by.index(j)] += gains[cable] * slope
+            gains = np.array([self.by_tensions(i, side, look) for i, side in moving.items()])
+            by_angle = by_angles(self.arm, self._tensions, look.angles, look.at_joints)
+            rows += (gains[:, None, :] @ by_angle[joints[:, 0]])[:, 0, others]
         return rows
 
 
 class Look:
-    """The joints of an arm at given bend angles."""
+    """The joints of an arm at given bend angles.
 
-    __slots__ = ('_capacities', '_excess', 'angles', 'at_joints', 'pairs', 'turned', 'turns')
+    Attributes
+    ----------
+    moments : list of float
+        M of each in N m.
+    """
+
+    __slots__ = (
+        *('_capacities', '_excess', 'angles', 'at_joints', 'moments', 'pairs', 'turned', 'turns'),
+    )
 
     def __init__(
         self,
@@ -165,22 +193,14 @@ class Look:
         angles: list[float],
         turns: list[complex],
         turned: list[complex],
+        moments: list[float],
         pairs: list[Tensions],
         at_joints: AtJoints,
     ) -> None:
         self._excess, self.angles = excess, angles
         self._capacities: dict[tuple[int, float], tuple[float, float]] = {}
-        self.turns, self.turned = turns, turned
+        self.turns, self.turned, self.moments = turns, turned, moments
         self.pairs, self.at_joints = pairs, at_joints
-
-    def moment(self, joint: int) -> float:
-        """M in N m."""
-        excess, (left, right) = self._excess, self.pairs[joint]
-        return (
-            (right - left) * excess.levers[joint]
-            + self.turned[joint].real
-            - excess.springs[joint] * self.angles[joint]
-        )
 
     def capacity(self, joint: int, side: float) -> tuple[float, float]:
         """K in N m for slipping to a side, and side ∂K/∂Θ."""
@@ -195,7 +215,7 @@ class Look:
     def velocities(self, sides: dict[int, float]) -> list[float]:
         """Return f = M − side K in N m of some joints, by their sides."""
         return [
-            self.moment(joint) - side * self.capacity(joint, side)[0]
+            self.moments[joint] - side * self.capacity(joint, side)[0]
             for joint, side in sides.items()
         ]
 
@@ -208,14 +228,17 @@ class Look:
             The side to which a joint does not move, since it is at its stop; 0 if there is none.
         """
         found = []
-        for joint, stopped in enumerate(leaning):
-            side, excess, _ = self.drive(joint)
-            found.append(side * excess if excess > 0.0 and side != stopped else 0.0)
+        for joint, (moment, stopped) in enumerate(zip(self.moments, leaning, strict=True)):
+            side = -1.0 if moment < 0.0 else 1.0
+            excess = 0.0
+            if side != stopped:
+                excess = side * moment - self.capacity(joint, side)[0]
+            found.append(side * excess if excess > 0.0 else 0.0)
         return found
 
     def drive(self, joint: int) -> tuple[float, float, float]:
         """Side to which M drives, the excess |M| − K in N m, and K."""
-        moment = self.moment(joint)
+        moment = self.moments[joint]
         side = -1.0 if moment < 0.0 else 1.0
         capacity = self.capacity(joint, side)[0]
         return side, side * moment - capacity, capacity

@@ -62,7 +62,7 @@ def settle(excess: Excess, angles: list[float]) -> Settled:
             leg = Leg(motion, far)
         except np.linalg.LinAlgError:
             break
-        if may_stride and suits_strides(motion, leg):
+        if may_stride and suits_strides(leg):
             go_strides(motion, leg.linear.far(SHORT))
             may_stride = False
             continue

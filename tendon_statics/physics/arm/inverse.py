@@ -147,7 +147,7 @@ class _Search:
             for side in (1.0, -1.0):
                 if joint == self._index and side != self._side:
                     continue
-                moment, capacity = side * look.moment(joint), look.capacity(joint, side)[0]
+                moment, capacity = side * look.moments[joint], look.capacity(joint, side)[0]
                 by_moment = side * self._levers(joint)
                 by_capacity = by_moment - side * np.array(excess.by_tensions(joint, side, look))
                 if joint == self._index:

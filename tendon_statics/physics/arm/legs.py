@@ -1,12 +1,14 @@
 """A motion leg by leg: each as far as the same joints move, or as its curvature lets.
 
 The velocities f of the joints that move are nearly linear in their angles. A leg follows the
-linear motion from where it begins, in closed form; what f is at its end beside that, is taken to
-have come with the square of time, and corrects it. That is the exponential Rosenbrock method of
-order 3 with its estimate of the error of order 2: Hochbruck, Ostermann and Schweitzer,
-"Exponential Rosenbrock-type methods", SIAM J. Numer. Anal. 47 (2009). No stiffness shortens it,
-and since the way is known at all times, so is when another joint comes to its limit, one falls
-below it, or one meets its stop.
+linear motion from where it begins, in closed form. If what f is at its end beside that counts at
+all, f is looked at on three quarters of the way, its remainder there is taken to have come with
+the square of time, and corrects the way; the remainder that is then left at the end tells the
+error. That is an exponential Rosenbrock method of order 4, with an estimate of the error of order
+3: Luan, "Fourth-order two-stage explicit exponential integrators for time-dependent PDEs", Appl.
+Numer. Math. 112 (2017), and Hochbruck, Ostermann and Schweitzer, "Exponential Rosenbrock-type
+methods", SIAM J. Numer. Anal. 47 (2009). No stiffness shortens it, and since the way is known at
+all times, so is when another joint comes to its limit, one falls below it, or one meets its stop.
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .excess import Look
-from .linear_motion import END, SQUARES, LinearMotion, Path
+from .linear_motion import END, NODE, SQUARES, LinearMotion, Path
 from .motion import TOLERANCE, Motion
 from .rest import NEAR
 
@@ -27,7 +29,7 @@ FAR = 0.3
 """Way in rad of a leg at the most"""
 
 LEG_ERROR = 1e-4
-"""Error of one leg in rad that is accepted, as estimated: of an order less, so far too large"""
+"""Error of one leg in rad that is accepted, as estimated: of an order less, so too large"""
 
 ALONG = 0.3
 """Share of the way by which a leg may be too long or too short, since how fast it goes is of no
@@ -45,6 +47,12 @@ RATIO = 1.2
 
 MOST_SPAN = 1e9
 """Of the last time that is looked at to the first"""
+
+EARLY = 0.2
+"""Share of a leg in which the path tells too roughly when other joints move"""
+
+MOST_CLOSER = 4
+"""How often that is looked at more closely: what moves at once is always early"""
 
 MOST_TRIALS = 40
 
@@ -91,36 +99,43 @@ class Leg:
 
     def go(self) -> float:
         """Go the leg; return how far in rad the next may be tried, 0 if this was not gone."""
-        motion = self._motion
-        end = min(self.time, self.linear.lifetime)
-        for _ in range(MOST_TRIALS):
-            course = self.linear.course(end)
+        motion, linear = self._motion, self.linear
+        end, error = min(self.time, linear.lifetime), 0.0
+        for trial in range(MOST_TRIALS):
+            course = linear.course(end)
             way = course.way
             if not abs(way).max() <= 2.0 * FAR:
                 end *= 0.1
                 continue
+            if self.may_rest:  # so that nothing changes before the end, were the motion linear
+                look = motion.after(way)
+                bend = linear.bend(end, motion.velocity(look) - linear.velocity_at(way))
+                if abs(bend).max() <= TOLERANCE:
+                    break
+            node = motion.after(course.node)
+            remainder = motion.velocity(node) - linear.velocity_at(course.node)
+            remainder /= SQUARES[NODE]
+            time, way = self._changes.first_way(course.bent(remainder), course.node, node)
+            if time < EARLY * end and trial < MOST_CLOSER:
+                end = 2.0 * time
+                continue
             look = motion.after(way)
-            path = course.bent(motion.velocity(look) - course.velocity)
-            bend = path.ways[:, END] - way
-            error = _amiss(bend, way, path.velocities[:, END])
+            velocity = linear.velocity_at(way) + (time / end) ** 2 * remainder
+            error = self._amiss(time, way, velocity, motion.velocity(look) - velocity)
             if error <= 1.0:
                 break
-            end *= max(0.1, 0.9 * error ** (-1.0 / 3.0)) if error < math.inf else 0.1
+            end = time * (max(0.1, 0.9 * error**-0.25) if error < math.inf else 0.1)
         else:
             return 0.0
-        far: float = float(abs(way).max()) * 0.9 * max(error, 1e-12) ** (-1.0 / 3.0)
-        if abs(bend).max() > TOLERANCE:
-            way = self._changes.first_way(path, way, look)
-            look = motion.after(path.ways[:, END] if way is None else way)
         motion.take(look)
         motion.change()
+        far: float = 0.9 * float(abs(way).max()) * max(error, 1e-4) ** -0.25
         return min(FAR, far)
 
-
-def _amiss(bend: Floats, way: Floats, velocity: Floats) -> float:
-    """Return the error of the linear motion, as a share of what is accepted."""
-    aside, along = aside_and_along(bend, velocity)
-    return max(aside / LEG_ERROR, along / (ALONG * float(abs(way + bend).max())))
+    def _amiss(self, time: float, way: Floats, velocity: Floats, defect: Floats) -> float:
+        """Return the error of a way, as a share of what is accepted, from that of its velocity."""
+        aside, along = aside_and_along(self.linear.bend(time, defect), velocity)
+        return max(aside / LEG_ERROR, along / (ALONG * float(abs(way).max())))
 
 
 def aside_and_along(error: Floats, velocity: Floats) -> tuple[float, float]:
@@ -166,17 +181,17 @@ class _Changes:
         found = self._first(path, self._at_first + self._by_way @ path.ways)
         return math.inf if found is None else found[0]
 
-    def first_way(self, path: Path, way: Floats, look: Look) -> Floats | None:
-        """Return the way to where other joints move first, just on the far side.
+    def first_way(self, path: Path, way: Floats, look: Look) -> tuple[float, Floats]:
+        """Return time and way to where other joints move first, just on the far side.
 
-        None if there is none.
+        To the end if there is none.
 
         Parameters
         ----------
         path : Path
             Of a whole leg, at its `PARTS`.
         way, look : array, Look
-            Its end, were the motion linear.
+            At its `NODE`, were the motion linear.
         """
         signals = self._at_first + self._by_way @ path.ways
         resting = list(self._resting)
@@ -184,9 +199,11 @@ class _Changes:
             sides = np.array(list(self._resting.values()))
             linear = self._at_first[resting, 0] + self._by_way[resting] @ way
             remainder = sides * look.velocities(self._resting) - linear
-            signals[resting] += remainder[:, None] * SQUARES
+            signals[resting] += remainder[:, None] * (SQUARES / SQUARES[NODE])
         found = self._first(path, signals)
-        return None if found is None else path.way(*found)
+        if found is None:
+            return float(path.times[END]), path.ways[:, END]
+        return found[0], path.way(*found)
 
     def _first(self, path: Path, signals: Floats) -> tuple[float, int] | None:
         """Return when the first change is, and the place in the path's times after it."""

@@ -32,8 +32,8 @@ COUPLING = 1e-3
 PARTS = np.arange(0, 23) / 20.0
 """Of the time of a course, that are looked at, and a little beyond"""
 
-END = 20
-"""Which of them is its end"""
+NODE, END = 15, 20
+"""Which of them is where the remainder is looked at, and which is the end"""
 
 SQUARES, CUBES = PARTS**2, PARTS**3
 
@@ -159,6 +159,16 @@ class LinearMotion:
         share = (way - gone[place - 1]) / (gone[place] - gone[place - 1])
         return float(times[place - 1] + share * (times[place] - times[place - 1]))
 
+    def velocity_at(self, way: Floats) -> Floats:
+        """Return the velocity at a way, were it linear."""
+        found: Floats = self.velocity + self._jacobian @ way
+        return found
+
+    def bend(self, time: float, remainder: Floats) -> Floats:
+        """Return what a remainder of the velocity makes of the way, if it came with t²."""
+        gains = (2.0 * time) * _phi_3(self._rates * time)
+        return np.asarray((self._modes @ (gains * (self._inverse @ remainder))).real, np.float64)
+
     def path(self, times: Floats) -> Path:
         """Return where it is at some times, were it linear."""
         ways = self.ways(times)
@@ -178,8 +188,10 @@ class Course:
 
     Attributes
     ----------
-    way, velocity : array
+    way : array
         At h, were it linear.
+    node : array
+        Way to the `NODE`, were it linear.
     """
 
     def __init__(self, linear: LinearMotion, end: float) -> None:
@@ -189,7 +201,7 @@ class Course:
         of_modes = np.expm1(self._phases) * linear._ways[:, None]
         self._ways: Floats = (linear._modes @ of_modes).real
         self.way = self._ways[:, END]
-        self.velocity: Floats = linear.velocity + linear._jacobian @ self.way
+        self.node = self._ways[:, NODE]
 
     def bent(self, remainder: Floats) -> Path:
         """Return where it is if there is a remainder d·(t/h)²; `remainder` is d."""

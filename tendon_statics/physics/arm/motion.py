@@ -39,6 +39,7 @@ class Motion:
         self.rubs = excess.arm.cable_friction_coefficient > 0.0
         self.rounding = excess.rounding
         self.look = excess.at(angles)
+        excess.remember(self.look)
         self.moving: dict[int, float] = {}
         self.at_limit: dict[int, float] = {}
         self._excess = excess
