@@ -23,7 +23,8 @@ class LoneThreadExecutor(SingleThreadedExecutor):
     def __init__(self, *, context: Context | None = None) -> None:
         super().__init__(context=context)
         # Not public; where rclpy comes to call it otherwise, all is as if this were not here.
-        guard, self._guard = self._guard, _GuardForOthers(None, None, context=self.context)
+        guard: GuardCondition = self._guard  # type: ignore[has-type]
+        self._guard = _GuardForOthers(None, None, context=self.context)
         guard.destroy()
 
 

@@ -108,12 +108,8 @@ def angles_held(
     """
     # A unit does not slip against the moment, so that the other side may go without a search.
     moment_side, everywhere = slip.moment_side(stop), [(-stop, stop)]
-    towards_s = (
-        everywhere if moment_side < 0.0 else _angles_below_limit(slip, stop, roots_ahead)
-    )
-    towards_l = (
-        everywhere if moment_side > 0.0 else _angles_below_limit(slip.mirrored(), stop)
-    )
+    towards_s = everywhere if moment_side < 0.0 else _angles_below_limit(slip, stop, roots_ahead)
+    towards_l = everywhere if moment_side > 0.0 else _angles_below_limit(slip.mirrored(), stop)
     if slip.side < 0.0:
         towards_s, towards_l = towards_l, towards_s
     mirrored = [(-high, -low) for low, high in reversed(towards_l)]

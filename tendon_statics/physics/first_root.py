@@ -20,7 +20,7 @@ from .roots import cubic_zero
 LOOKS = 7
 """Angles from 0 to the stop at which it is seen how a score turns"""
 
-LAST_STEP = 1e-5
+LAST_STEP = 1e-6
 """rad, to an angle; the next would be a thousandth of it"""
 
 STEPS = 60
@@ -99,7 +99,7 @@ class FirstRoot:
         """Angle ahead in rad between two knots at which the score is what it is to be."""
         (low, at_low, low_slope), (high, at_high, high_slope) = one, other
         rises = at_high > at_low
-        ahead = cubic_zero(
+        ahead: float = cubic_zero(
             (low, at_low - score, low_slope), (high, at_high - score, high_slope)
         )
         before: Knot | None = None

@@ -29,6 +29,7 @@ from .kept import kept
 from .load import UPRIGHT, Load
 from .regime import Regime
 from .slip import Probe, Slip
+from .state import Equilibrium
 from .tensions import Tensions, check_tensions, taut_slip
 
 FAR = 5.0
@@ -75,6 +76,32 @@ def slip_angle_distribution(
     tensions = check_tensions(tension_l, tension_s)
     slip = taut_slip(design, tensions, load, -1.0 if tension_l > tension_s else 1.0)
     return SlipAngleDistribution(design, tensions, load, slip, tension_stddev, design_covariance)
+
+
+def distribution_about(
+    equilibrium: Equilibrium,
+    tension_stddev: float,
+    design_covariance: DesignUncertainty | None = None,
+) -> SlipAngleDistribution:
+    """`slip_angle_distribution` of tensions that are solved already, with their slip function.
+
+    Parameters
+    ----------
+    equilibrium : Equilibrium
+        Of `solve`, of two taut cables.
+    """
+    design, load = equilibrium.design, equilibrium.load
+    pair = Tensions(equilibrium.tension_l, equilibrium.tension_s)
+    if equilibrium.bend_angle is None:  # nothing has been kept of its slip function
+        return slip_angle_distribution(
+            design,
+            *pair,
+            tension_stddev=tension_stddev,
+            load=load,
+            design_covariance=design_covariance,
+        )
+    slip, _ = equilibrium._slip_and_probe
+    return SlipAngleDistribution(design, pair, load, slip, tension_stddev, design_covariance)
 
 
 class SlipAngleDistribution:
@@ -232,7 +259,7 @@ class SlipAngleDistribution:
 
     def _score_of(self, probe: Probe) -> Knot:
         """Return s = g / σ_g where the slip function was probed."""
-        slip, (ahead, excess, slope, *_) = self._slip, probe
+        slip, (ahead, excess, slope) = self._slip, probe[:3]
         behind, in_front = slip_by_tensions(slip, slip.point(probe), self._design.relative_lever)
         variance = self._stddev**2 * (behind * behind + in_front * in_front)
         if self._uncertainty is not None:

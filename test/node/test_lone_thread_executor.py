@@ -1,4 +1,4 @@
-"""`LoneThreadExecutor`: it gathers all entities once for a callback, and wakes for other threads."""
+"""`LoneThreadExecutor`: entities are gathered once for a callback; other threads wake it."""
 
 import threading
 
@@ -66,7 +66,7 @@ def test_what_a_callback_asks_for_is_done_though_it_wakes_nobody(executor, node)
     pytest.fail(f'only {done} was done')
 
 
-def test_another_thread_wakes_it(executor, node):
+def test_another_thread_wakes_it(executor):
     done = []
     executor.spin_once(timeout_sec=0.0)
     other = threading.Thread(target=lambda: executor.create_task(done.append, 'task'))
