@@ -102,19 +102,21 @@ class FirstRoot:
         ahead: float = cubic_zero(
             (low, at_low - score, low_slope), (high, at_high - score, high_slope)
         )
+        if not low <= ahead <= high:
+            ahead = 0.5 * (low + high)
         before: Knot | None = None
         for _ in range(STEPS):
-            if not low <= ahead <= high:
-                ahead = 0.5 * (low + high)
             knot = self._score(ahead)
             _, value, slope = knot
             low, high = (ahead, high) if (value < score) == rises else (low, ahead)
             if before is not None and ahead != before[0]:
                 slope = (value - before[1]) / (ahead - before[0])
-            step = (score - value) / slope if slope else math.nan
-            if before is not None and abs(step) < LAST_STEP:
-                return min(max(ahead + step, low), high)
-            before, ahead = knot, ahead + step
+            nearer = ahead + (score - value) / slope if slope else math.nan
+            if not low <= nearer <= high:
+                nearer = 0.5 * (low + high)
+            if before is not None and abs(nearer - ahead) < LAST_STEP:
+                return nearer
+            before, ahead = knot, nearer
         return ahead
 
 
