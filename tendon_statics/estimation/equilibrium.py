@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..physics import Regime, SlipAngleDistribution, slip_angle_distribution, solve
+from ..physics import Regime, SlipAngleDistribution, solve
 from ..physics.kept import kept
+from ..physics.uncertainty import distribution_about
 from .estimate import Interval, Remark, Sample
 from .exact_estimate import ExactEstimate
 from .method import Method
@@ -31,13 +32,8 @@ class PairEstimate(ExactEstimate):
         settings = self.settings
         if self.regime is Regime.SLACK or not settings.tension_stddev > 0.0:
             return None
-        found = slip_angle_distribution(
-            self.design,
-            self.tension_l,
-            self.tension_s,
-            tension_stddev=settings.tension_stddev,
-            load=self.load,
-            design_covariance=settings.design_uncertainty,
+        found = distribution_about(
+            self.result, settings.tension_stddev, settings.design_uncertainty
         )
         return found if found.is_closed_form else None
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from rclpy.lifecycle import LifecycleNode
@@ -13,6 +14,7 @@ from ..estimation.health import Health
 from ..estimation.measuring import Measuring
 from ..estimation.reading_estimator import ReadingEstimator
 from .inputs.tension_source import TensionSource
+from .one_at_a_time import OneAtATime
 from .outputs.committed import CommittedOutput
 from .outputs.publishers import Outputs
 from .parameters.table import NodeTable
@@ -41,6 +43,11 @@ class KindOfEstimator(LifecycleNode, Generic[S, E]):
     # Made in `_connect`, where they are asked for.
     _committed: CommittedOutput | None = None
     _tip_forces: TipForces | None = None
+
+    @cached_property
+    def default_callback_group(self) -> OneAtATime:
+        """The group of all that the node has; rclpy takes it from here."""
+        return OneAtATime()
 
     @abstractmethod
     def _declare(self) -> None:

@@ -138,9 +138,9 @@ def _spin(node: Any) -> None:
         node.spin()
         return
     if kind == 'single':
-        from rclpy.executors import SingleThreadedExecutor
+        from .lone_thread_executor import LoneThreadExecutor
 
-        executor = SingleThreadedExecutor()
+        executor = LoneThreadExecutor()
         executor.add_node(node)
         executor.spin()
         return

@@ -106,8 +106,10 @@ def angles_held(
     roots_ahead : sequence of float, optional
         All roots of the slip function from 0 to the stop, where they have been found already.
     """
-    towards_s = _angles_below_limit(slip, stop, roots_ahead)
-    towards_l = _angles_below_limit(slip.mirrored(), stop)
+    # A unit does not slip against the moment, so that the other side may go without a search.
+    moment_side, everywhere = slip.moment_side(stop), [(-stop, stop)]
+    towards_s = everywhere if moment_side < 0.0 else _angles_below_limit(slip, stop, roots_ahead)
+    towards_l = everywhere if moment_side > 0.0 else _angles_below_limit(slip.mirrored(), stop)
     if slip.side < 0.0:
         towards_s, towards_l = towards_l, towards_s
     mirrored = [(-high, -low) for low, high in reversed(towards_l)]

@@ -14,6 +14,9 @@ import math
 from collections.abc import Callable
 from statistics import NormalDist
 
+from .kept import kept
+from .roots import cubic_zero
+
 LOOKS = 7
 """Angles from 0 to the stop at which it is seen how a score turns"""
 
@@ -21,10 +24,11 @@ LAST_STEP = 1e-6
 """rad, to an angle; the next would be a thousandth of it"""
 
 STEPS = 60
-"""To such an angle at the most, should each but halve the range; four or so are taken"""
+"""To such an angle at the most, should each but halve the range; two are taken as a rule"""
 
-Knot = tuple[float, float]
-"""An angle ahead in rad, and the score there"""
+Knot = tuple[float, float, float]
+"""An angle ahead in rad, the score there, and about the score's slope: that of g over σ_g, which
+turns far less than g does"""
 
 _NORMAL = NormalDist()
 
@@ -35,9 +39,9 @@ class FirstRoot:
     Parameters
     ----------
     score : callable
-        s, of an angle ahead in rad.
-    stop : float
-        θ_max in rad.
+        Returns the knot at an angle ahead in rad.
+    ends : tuple of Knot
+        Those at 0 and at the stop.
     is_monotonic : bool
         Whether it rises or falls all the way, so that its ends tell.
 
@@ -48,28 +52,28 @@ class FirstRoot:
     """
 
     def __init__(
-        self, score: Callable[[float], float], stop: float, *, is_monotonic: bool
+        self, score: Callable[[float], Knot], ends: tuple[Knot, Knot], *, is_monotonic: bool
     ) -> None:
         self._score = score
-        looks = 2 if is_monotonic else LOOKS
-        step = stop / (looks - 1)
-        knots = [(step * index, score(step * index)) for index in range(looks - 1)]
-        knots.append((stop, score(stop)))
-        tops = [_top(*three, step) for three in zip(knots, knots[1:], knots[2:], strict=False)]
-        knots += [(angle, score(angle)) for angle in tops if angle is not None]
-        self._knots = sorted(knots)
-        scores = [value for _, value in knots]
+        first, last = ends
+        self._knots = [first, last]
+        if not is_monotonic:
+            step = last[0] / (LOOKS - 1)
+            looks = [first, *(score(step * index) for index in range(1, LOOKS - 1)), last]
+            tops = [_top(*three, step) for three in zip(looks, looks[1:], looks[2:], strict=False)]
+            self._knots = sorted([*looks, *(score(angle) for angle in tops if angle is not None)])
+        scores = [knot[1] for knot in self._knots]
         self.least, self.greatest = min(scores), max(scores)
 
-    @property
+    @kept
     def probability(self) -> float:
         """Of a root."""
         return max(_NORMAL.cdf(self.greatest) - _NORMAL.cdf(self.least), 0.0)
 
     def before(self, angle: float) -> float:
         """Probability of a root up to an angle ahead in rad, within the stop."""
-        scores = [score for knot, score in self._knots if knot < angle]
-        scores.append(self._score(angle))
+        scores = [score for knot, score, _ in self._knots if knot < angle]
+        scores.append(self._score(angle)[1])
         return _NORMAL.cdf(max(scores)) - _NORMAL.cdf(min(scores))
 
     def angle_of(self, probability: float) -> float | None:
@@ -93,19 +97,26 @@ class FirstRoot:
 
     def _between(self, one: Knot, other: Knot, score: float) -> float:
         """Angle ahead in rad between two knots at which the score is what it is to be."""
-        (low, at_low), (high, at_high) = one, other
+        (low, at_low, low_slope), (high, at_high, high_slope) = one, other
         rises = at_high > at_low
-        before, ahead = other, low + (score - at_low) * (high - low) / (at_high - at_low)
+        ahead: float = cubic_zero(
+            (low, at_low - score, low_slope), (high, at_high - score, high_slope)
+        )
+        if not low <= ahead <= high:
+            ahead = 0.5 * (low + high)
+        before: Knot | None = None
         for _ in range(STEPS):
-            value = self._score(ahead)
+            knot = self._score(ahead)
+            _, value, slope = knot
             low, high = (ahead, high) if (value < score) == rises else (low, ahead)
-            rise = value - before[1]
-            nearer = ahead + (score - value) * (ahead - before[0]) / rise if rise else math.nan
+            if before is not None and ahead != before[0]:
+                slope = (value - before[1]) / (ahead - before[0])
+            nearer = ahead + (score - value) / slope if slope else math.nan
             if not low <= nearer <= high:
                 nearer = 0.5 * (low + high)
-            if abs(nearer - ahead) < LAST_STEP:
+            if before is not None and abs(nearer - ahead) < LAST_STEP:
                 return nearer
-            before, ahead = (ahead, value), nearer
+            before, ahead = knot, nearer
         return ahead
 
 

@@ -222,6 +222,14 @@ class Slip:
         turning = self._of_cosine * self._cosine(angle) + self._of_sine * self._sine(angle)
         return self._offset + turning + self._of_angle * angle
 
+    def moment_side(self, stop: float) -> float:
+        """1 where M is ahead at all angles within ±`stop` in rad, −1 where it is back at all.
+
+        Elsewhere 0, and also where that would take a closer look.
+        """
+        turning = abs(self._of_cosine) + abs(self._of_sine) + abs(self._of_angle) * stop
+        return 1.0 if self._offset > turning else -1.0 if -self._offset > turning else 0.0
+
     def margin(self, angle: float) -> float:
         """M / K at an angle ahead in rad, with the capacity on the side of M.
 

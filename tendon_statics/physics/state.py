@@ -80,7 +80,7 @@ class Equilibrium(StateBasis):
             return self._slip_and_probe[1][2] < 0.0  # type: ignore[no-any-return]
         return True if self.regime is Regime.DRIVEN_TO_STOP else None
 
-    @property
+    @kept
     def normal_force(self) -> float | None:
         """N in N; None for a tracked unit where not `branch_consistent`."""
         if not self._is_vouched_for:
@@ -104,7 +104,7 @@ class Equilibrium(StateBasis):
         """What Eqs. (1) and (2) leave over, one by one."""
         return self._details.force_remainder if self._is_vouched_for else None
 
-    @property
+    @kept
     def branch_consistent(self) -> bool | None:
         """Whether Eqs. (1) and (2) ask for the contact force taken.
 

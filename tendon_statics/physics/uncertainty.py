@@ -23,12 +23,13 @@ from .design import JointDesign
 from .design_gradients import excess_by_design
 from .design_uncertainty import DesignUncertainty
 from .drawn_slip_angles import DrawnSlipAngles
-from .first_root import FirstRoot
+from .first_root import FirstRoot, Knot
 from .gradients import slip_by_tensions
 from .kept import kept
 from .load import UPRIGHT, Load
 from .regime import Regime
-from .slip import Slip
+from .slip import Probe, Slip
+from .state import Equilibrium
 from .tensions import Tensions, check_tensions, taut_slip
 
 FAR = 5.0
@@ -77,6 +78,32 @@ def slip_angle_distribution(
     return SlipAngleDistribution(design, tensions, load, slip, tension_stddev, design_covariance)
 
 
+def distribution_about(
+    equilibrium: Equilibrium,
+    tension_stddev: float,
+    design_covariance: DesignUncertainty | None = None,
+) -> SlipAngleDistribution:
+    """`slip_angle_distribution` of tensions that are solved already, with their slip function.
+
+    Parameters
+    ----------
+    equilibrium : Equilibrium
+        Of `solve`, of two taut cables.
+    """
+    design, load = equilibrium.design, equilibrium.load
+    pair = Tensions(equilibrium.tension_l, equilibrium.tension_s)
+    if equilibrium.bend_angle is None:  # nothing has been kept of its slip function
+        return slip_angle_distribution(
+            design,
+            *pair,
+            tension_stddev=tension_stddev,
+            load=load,
+            design_covariance=design_covariance,
+        )
+    slip, _ = equilibrium._slip_and_probe
+    return SlipAngleDistribution(design, pair, load, slip, tension_stddev, design_covariance)
+
+
 class SlipAngleDistribution:
     """The distribution of the slip angle of one pair of noisy tensions.
 
@@ -105,13 +132,22 @@ class SlipAngleDistribution:
         """1 where the slip function rises through the range, −1 where it falls, else 0."""
         if not self._slip.is_determined:
             return 1.0  # the same at all angles: held, or driven to the stop
-        slip = self._slip
-        least, greatest = slip.slope_bounds(slip.probe(0.0), slip.probe(self._stop))
+        least, greatest = self._slip.slope_bounds(*self._ends)
         return 1.0 if least > 0.0 else -1.0 if greatest < 0.0 else 0.0
 
     @kept
+    def _ends(self) -> tuple[Probe, Probe]:
+        """The slip function at 0 and at the stop."""
+        return self._slip.probe(0.0), self._slip.probe(self._stop)
+
+    @kept
     def _root(self) -> FirstRoot:
-        return FirstRoot(self._score, self._stop, is_monotonic=self._direction != 0.0)
+        first, last = self._ends
+        return FirstRoot(
+            self._score,
+            (self._score_of(first), self._score_of(last)),
+            is_monotonic=self._direction != 0.0,
+        )
 
     @kept
     def is_closed_form(self) -> bool:
@@ -217,19 +253,23 @@ class SlipAngleDistribution:
             return None
         return min(one, other), max(one, other)
 
-    def _score(self, ahead: float) -> float:
+    def _score(self, ahead: float) -> Knot:
         """Return s = g / σ_g at an angle ahead in rad."""
-        slip = self._slip
-        point = slip.at(ahead)
-        by_tensions = slip_by_tensions(slip, point, self._design.relative_lever)
-        variance = self._stddev**2 * (by_tensions[0] ** 2 + by_tensions[1] ** 2)
+        return self._score_of(self._slip.probe(ahead))
+
+    def _score_of(self, probe: Probe) -> Knot:
+        """Return s = g / σ_g where the slip function was probed."""
+        slip, (ahead, excess, slope) = self._slip, probe[:3]
+        behind, in_front = slip_by_tensions(slip, slip.point(probe), self._design.relative_lever)
+        variance = self._stddev**2 * (behind * behind + in_front * in_front)
         if self._uncertainty is not None:
             names = self._uncertainty.parameters
             slopes = excess_by_design(
                 lambda other: self._excess_of(other, ahead), self._design, names, slip.total
             )
             variance += self._uncertainty.variance(dict(zip(names, slopes, strict=True)))
-        return float(point.excess) / math.sqrt(variance)
+        deviation = math.sqrt(variance)
+        return ahead, excess / deviation, slope / deviation
 
     def _excess_of(self, design: JointDesign, ahead: float) -> float:
         """Return g in units of r T for another design, at an angle ahead in rad."""

@@ -19,6 +19,7 @@ from tendon_statics import (
     solve_batch,
 )
 from tendon_statics.physics.batch import REGIME_CODES
+from tendon_statics.physics.uncertainty import distribution_about
 
 REGIMES = (Regime.EQUILIBRIUM, Regime.HELD, Regime.DRIVEN_TO_STOP)
 DRAWS = 20_000
@@ -183,3 +184,30 @@ def test_levels_are_between_0_and_1(level):
         found.interval(level)
     with pytest.raises(ValueError, match='between 0 and 1'):
         found.quantile(level)
+
+
+def test_an_interval_ends_where_its_probability_does():
+    """Also where σ_g changes so much with the angle that steps by the slope of g fall short."""
+    intervals = 0
+    for case, stddev in noisy_cases(2000, seed=11):
+        found = slip_angle_distribution(
+            case.design, case.tension_l, case.tension_s, tension_stddev=stddev, load=case.load
+        )
+        if not found.is_closed_form or (interval := found.interval(0.9)) is None:
+            continue
+        one, other = (found.cdf(angle) for angle in interval)
+        whole = found.probability('equilibrium')
+        assert abs(other - one) == pytest.approx(0.9 * whole, abs=1e-5), case
+        intervals += 1
+    assert intervals > 100
+
+
+def test_what_is_known_about_an_equilibrium_is_what_is_known_of_its_tensions():
+    for case, stddev in noisy_cases(200, seed=12):
+        given = case.design, case.tension_l, case.tension_s
+        of_tensions = slip_angle_distribution(*given, tension_stddev=stddev, load=case.load)
+        if not of_tensions.is_closed_form:
+            continue
+        found = distribution_about(solve(*given, case.load), stddev)
+        assert found.interval(0.9) == of_tensions.interval(0.9)
+        assert found.probabilities == of_tensions.probabilities

@@ -13,8 +13,8 @@ def waiting_messages(
 ) -> Iterator[tuple[Any, dict[str, int | None]]]:
     """Take what waits for a subscription, `most` messages at the most; each with its info.
 
-    For every message that rclpy's executor takes it gathers all that the node has, twice. In a
-    callback of the subscription that can be spared for those that came meanwhile.
+    For every message that an executor takes it gathers all that the node has. In a callback of
+    the subscription that can be spared for those that came meanwhile.
     """
     handle, message_type, raw = subscription.handle, subscription.msg_type, subscription.raw
     with handle:
