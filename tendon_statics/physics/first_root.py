@@ -11,20 +11,22 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from statistics import NormalDist
 
-LOOKS = 7
-"""Angles from 0 to the stop at which it is seen how a score turns"""
+from .roots import cubic_zero
 
-LAST_STEP = 1e-6
-"""rad, to an angle; the next would be a thousandth of it"""
+LAST_STEP = 1e-4
+"""rad, to an angle; the next would be a hundredth of it"""
 
-STEPS = 60
-"""To such an angle at the most, should each but halve the range; four or so are taken"""
+STEPS = 30
+"""To such an angle at the most, should each but halve the range; two or so are taken"""
 
-Knot = tuple[float, float]
-"""An angle ahead in rad, and the score there"""
+USUAL_STEPS = 4
+"""Those after which every other one halves the range"""
+
+Knot = tuple[float, float, float]
+"""An angle ahead in rad, the score there, and about its slope"""
 
 _NORMAL = NormalDist()
 
@@ -35,11 +37,9 @@ class FirstRoot:
     Parameters
     ----------
     score : callable
-        s, of an angle ahead in rad.
-    stop : float
-        θ_max in rad.
-    is_monotonic : bool
-        Whether it rises or falls all the way, so that its ends tell.
+        Knot of an angle ahead in rad.
+    knots : sequence of Knot
+        From 0 to the stop, ascending, with all at which the score turns.
 
     Attributes
     ----------
@@ -47,18 +47,9 @@ class FirstRoot:
         The score's range. Below the least the unit is driven to the stop, above the greatest held.
     """
 
-    def __init__(
-        self, score: Callable[[float], float], stop: float, *, is_monotonic: bool
-    ) -> None:
-        self._score = score
-        looks = 2 if is_monotonic else LOOKS
-        step = stop / (looks - 1)
-        knots = [(step * index, score(step * index)) for index in range(looks - 1)]
-        knots.append((stop, score(stop)))
-        tops = [_top(*three, step) for three in zip(knots, knots[1:], knots[2:], strict=False)]
-        knots += [(angle, score(angle)) for angle in tops if angle is not None]
-        self._knots = sorted(knots)
-        scores = [value for _, value in knots]
+    def __init__(self, score: Callable[[float], Knot], knots: Sequence[Knot]) -> None:
+        self._score, self._knots = score, knots
+        scores = [knot[1] for knot in knots]
         self.least, self.greatest = min(scores), max(scores)
 
     @property
@@ -68,8 +59,8 @@ class FirstRoot:
 
     def before(self, angle: float) -> float:
         """Probability of a root up to an angle ahead in rad, within the stop."""
-        scores = [score for knot, score in self._knots if knot < angle]
-        scores.append(self._score(angle))
+        scores = [knot[1] for knot in self._knots if knot[0] < angle]
+        scores.append(self._score(angle)[1])
         return _NORMAL.cdf(max(scores)) - _NORMAL.cdf(min(scores))
 
     def angle_of(self, probability: float) -> float | None:
@@ -93,26 +84,28 @@ class FirstRoot:
 
     def _between(self, one: Knot, other: Knot, score: float) -> float:
         """Angle ahead in rad between two knots at which the score is what it is to be."""
-        (low, at_low), (high, at_high) = one, other
-        rises = at_high > at_low
-        before, ahead = other, low + (score - at_low) * (high - low) / (at_high - at_low)
-        for _ in range(STEPS):
-            value = self._score(ahead)
-            low, high = (ahead, high) if (value < score) == rises else (low, ahead)
-            rise = value - before[1]
-            nearer = ahead + (score - value) * (ahead - before[0]) / rise if rise else math.nan
-            if not low <= nearer <= high:
-                nearer = 0.5 * (low + high)
+        low, high = ((angle, value - score, slope) for angle, value, slope in (one, other))
+        rises = low[1] < high[1]
+        ahead = cubic_zero(low, high)
+        if not low[0] <= ahead <= high[0]:
+            ahead = _from_turn(low, high)
+        for step in range(STEPS):
+            if not low[0] <= ahead <= high[0] or (step > USUAL_STEPS and step % 2):
+                ahead = 0.5 * (low[0] + high[0])
+            angle, value, slope = self._score(ahead)
+            probe = angle, value - score, slope
+            low, high = (probe, high) if (probe[1] < 0.0) == rises else (low, probe)
+            nearer = ahead - probe[1] / slope if slope else math.nan
             if abs(nearer - ahead) < LAST_STEP:
-                return nearer
-            before, ahead = (ahead, value), nearer
-        return ahead
+                return min(max(nearer, low[0]), high[0])
+            ahead = nearer
+        return 0.5 * (low[0] + high[0])
 
 
-def _top(one: Knot, middle: Knot, other: Knot, step: float) -> float | None:
-    """Angle at which a parabola through three knots turns, if it does between them."""
-    to, onwards = middle[1] - one[1], other[1] - middle[1]
-    return middle[0] + 0.5 * step * (to + onwards) / (to - onwards) if to * onwards < 0.0 else None
+def _from_turn(low: Knot, high: Knot) -> float:
+    """Where a parabola through two knots is zero that turns at the flatter one."""
+    turn, other = (low, high) if abs(low[2]) < abs(high[2]) else (high, low)
+    return turn[0] + (other[0] - turn[0]) * math.sqrt(turn[1] / (turn[1] - other[1]))
 
 
 def _score_of(probability: float) -> float:

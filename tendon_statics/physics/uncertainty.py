@@ -8,7 +8,9 @@ g(x) ≥ 0. So to first order in the noise
 
 whatever the regime: F(0) is the probability of ``driven_to_stop``, 1 − F(θ_max) that of ``held``,
 and in between lies an equilibrium. Where g falls, it is Φ(−s), and the two change places. Where g
-turns it may have several roots, and the one nearest to 0 counts; see `first_root`.
+turns it may have several roots, and the one nearest to 0 counts; see `first_root`. Where noise may
+turn the stronger cable into the weaker there is an F of each side, and where it may end a cable's
+tension one of taut cables; see `noisy_slip`.
 
 The gradient of the root, on which deviations rest, says nothing of all this near the end of a
 regime.
@@ -17,24 +19,20 @@ regime.
 from __future__ import annotations
 
 import math
-from statistics import NormalDist
+from functools import partial
 
 from .design import JointDesign
 from .design_gradients import excess_by_design
 from .design_uncertainty import DesignUncertainty
 from .drawn_slip_angles import DrawnSlipAngles
-from .first_root import FirstRoot
-from .gradients import slip_by_tensions
 from .kept import kept
 from .load import UPRIGHT, Load
+from .noisy_slip import FAR, Condition, NoisySlip
 from .regime import Regime
 from .slip import Slip
 from .tensions import Tensions, check_tensions, taut_slip
 
-FAR = 5.0
-"""Standard deviations that count as never"""
-
-_NORMAL = NormalDist()
+SQRT_HALF = math.sqrt(0.5)
 
 
 def slip_angle_distribution(
@@ -48,9 +46,9 @@ def slip_angle_distribution(
 ) -> SlipAngleDistribution:
     """Return the distribution of the slip angle of a pair of noisy tensions.
 
-    In closed form where the side of slip is sure; from `DRAWS` draws through `solve_batch` next to
-    equal tensions and to a slack cable, which takes a hundred times as long.
-    `SlipAngleDistribution.is_closed_form` tells.
+    In closed form, but where noise may lift the joint off its seat, or turn the stronger cable
+    into the weaker as well as end its tension: there from `DRAWS` draws through `solve_batch`,
+    which takes a hundred times as long. `SlipAngleDistribution.is_closed_form` tells.
 
     Parameters
     ----------
@@ -98,31 +96,52 @@ class SlipAngleDistribution:
         self._slip = slip
         self._stddev = tension_stddev
         self._uncertainty = uncertainty
-        self._stop = design.max_bend_angle
-
-    @kept
-    def _direction(self) -> float:
-        """1 where the slip function rises through the range, −1 where it falls, else 0."""
-        if not self._slip.is_determined:
-            return 1.0  # the same at all angles: held, or driven to the stop
-        slip = self._slip
-        least, greatest = slip.slope_bounds(slip.probe(0.0), slip.probe(self._stop))
-        return 1.0 if least > 0.0 else -1.0 if greatest < 0.0 else 0.0
-
-    @kept
-    def _root(self) -> FirstRoot:
-        return FirstRoot(self._score, self._stop, is_monotonic=self._direction != 0.0)
+        weak, strong = sorted(tensions)
+        self._lead = SQRT_HALF * (strong - weak) / tension_stddev
+        self._tautness = weak / tension_stddev
 
     @kept
     def is_closed_form(self) -> bool:
         """Whether it is worked out in closed form; otherwise from `DRAWS` draws.
 
-        It is where noise neither turns the stronger cable into the weaker nor ends its tension.
+        It is where noise does not lift the joint off its seat, and does not both turn the
+        stronger cable into the weaker and end its tension.
         """
-        weak, strong = sorted(self._tensions)
-        spare = min(weak, self._slip.excess / math.sqrt(2.0))
-        surest: float = min((strong - weak) / math.sqrt(2.0), spare)
-        return surest > FAR * self._stddev
+        if self._lead <= FAR and self._tautness <= FAR:
+            return False
+        far = FAR * self._stddev / SQRT_HALF
+        return bool(self._slip.excess > far) or self._seat > far
+
+    @property
+    def _seat(self) -> float:
+        """By how much both tensions together exceed in N what seats the joint."""
+        if not self._design.law.carries_more_than_cables:
+            return float(self._slip.excess)
+        dead = self._load.on(self._design)
+        return sum(self._tensions) - dead.largest_pull(self._design.max_bend_angle)
+
+    @kept
+    def _sides(self) -> list[NoisySlip]:
+        """The slip function towards each side to which the unit may slip, the likelier first."""
+        slip = self._slip
+        if self._lead <= FAR:
+            return [
+                self._noisy(slip, Condition(-SQRT_HALF, SQRT_HALF, self._lead)),
+                self._noisy(slip.mirrored(), Condition(-SQRT_HALF, SQRT_HALF, -self._lead)),
+            ]
+        return [
+            self._noisy(slip, Condition(1.0, 0.0, self._tautness) if self._may_slacken else None)
+        ]
+
+    def _noisy(self, slip: Slip, condition: Condition | None) -> NoisySlip:
+        of_design = None
+        if self._uncertainty is not None:
+            of_design = partial(self._variance_of_design, slip, self._uncertainty)
+        return NoisySlip(slip, self._design.max_bend_angle, self._stddev, condition, of_design)
+
+    @property
+    def _may_slacken(self) -> bool:
+        return self._tautness <= FAR
 
     def probability(self, regime: Regime | str) -> float:
         """Return the probability of what `solve` would answer without noise.
@@ -137,21 +156,26 @@ class SlipAngleDistribution:
         """The probability of each regime."""
         if not self.is_closed_form:
             return {regime: self._drawn.probability(regime) for regime in Regime}
+        equilibrium = held = driven = 0.0
+        for noisy in self._sides:
+            equilibrium += noisy.chance * noisy.root.probability
+            held += noisy.chance * noisy.held
+            driven += noisy.chance * noisy.driven
         return {
-            Regime.EQUILIBRIUM: self._root.probability,
-            Regime.HELD: _NORMAL.cdf(-self._root.greatest),
+            Regime.EQUILIBRIUM: equilibrium,
+            Regime.HELD: held,
             Regime.SLIPPING: 0.0,
-            Regime.DRIVEN_TO_STOP: _NORMAL.cdf(self._root.least),
-            Regime.SLACK: 0.0,
+            Regime.DRIVEN_TO_STOP: driven,
+            Regime.SLACK: 1.0 - self._sides[0].chance if self._may_slacken else 0.0,
         }
 
     def cdf(self, angle: float) -> float:
         """Return the probability that the slip angle lies between 0, or before, and an angle.
 
         What is said of a negative angle is said of its mirror image: the slip angle towards
-        cable l, up to that. The whole of one side is 1. Of the two other regimes
-        ``driven_to_stop`` lies before 0 and ``held`` beyond the stop; where the slip function
-        falls all the way it is the other way round.
+        cable l, up to that. The whole of one side is 1; 0 belongs to that of the stronger cable.
+        Of the two other regimes ``driven_to_stop`` lies before 0 and ``held`` beyond the stop;
+        where the slip function falls all the way it is the other way round.
 
         Parameters
         ----------
@@ -160,13 +184,16 @@ class SlipAngleDistribution:
         """
         if not self.is_closed_form:
             return self._drawn.cdf(angle)
-        ahead: float = self._slip.side * angle
-        if ahead < 0.0:
-            return 0.0
-        return self._before_zero + self._root.before(min(ahead, self._stop))
+        for noisy in self._sides:
+            ahead: float = noisy.side * angle
+            if ahead >= 0.0:
+                return self._of_side(noisy) * noisy.cdf(ahead)
+        return 0.0
 
     def quantile(self, q: float) -> float | None:
         """Return the angle in rad at which `cdf` is q; None where that is in no equilibrium.
+
+        On the side of the stronger cable.
 
         Raises
         ------
@@ -177,24 +204,18 @@ class SlipAngleDistribution:
             raise ValueError(f'q is {q!r}, allowed is between 0 and 1')
         if not self.is_closed_form:
             return self._drawn.quantile(q)
-        share = q - self._before_zero
-        return self._angle_of(share) if 0.0 < share <= self._root.probability else None
+        noisy = self._sides[0]
+        ahead = noisy.quantile(q / self._of_side(noisy))
+        return None if ahead is None else noisy.side * ahead
 
-    @kept
-    def _before_zero(self) -> float:
-        """What of `cdf` lies before 0."""
-        first = Regime.HELD if self._direction < 0.0 else Regime.DRIVEN_TO_STOP
-        return self.probabilities[first]
-
-    def _angle_of(self, share: float) -> float | None:
-        """Angle in rad up to which roots have a probability."""
-        ahead = self._root.angle_of(share)
-        return None if ahead is None else self._slip.side * ahead
+    def _of_side(self, noisy: NoisySlip) -> float:
+        """Return the probability that both cables are taut, given which is the stronger."""
+        return noisy.chance if self._may_slacken else 1.0
 
     def interval(self, level: float = 0.95) -> tuple[float, float] | None:
         """Return the interval in rad that holds the angle of an equilibrium with a probability.
 
-        Given that it is one; None where it never is.
+        Given that it is one; None where it never is, as far as its probability is known.
 
         Parameters
         ----------
@@ -210,31 +231,37 @@ class SlipAngleDistribution:
             raise ValueError(f'level is {level!r}, allowed is between 0 and 1')
         if not self.is_closed_form:
             return self._drawn.interval(level)
-        whole = self._root.probability
-        shares = (0.5 * (1.0 - level), 0.5 * (1.0 + level))
-        one, other = (self._angle_of(whole * share) for share in shares)
-        if one is None or other is None:
+        if not self.probabilities[Regime.EQUILIBRIUM] > self._sides[0].least_known:
             return None
-        return min(one, other), max(one, other)
+        low = self._angle_of(0.5 * (1.0 - level))
+        high = self._angle_of(0.5 * (1.0 + level))
+        return None if low is None or high is None else (low, high)
 
-    def _score(self, ahead: float) -> float:
-        """Return s = g / σ_g at an angle ahead in rad."""
-        slip = self._slip
-        point = slip.at(ahead)
-        by_tensions = slip_by_tensions(slip, point, self._design.relative_lever)
-        variance = self._stddev**2 * (by_tensions[0] ** 2 + by_tensions[1] ** 2)
-        if self._uncertainty is not None:
-            names = self._uncertainty.parameters
-            slopes = excess_by_design(
-                lambda other: self._excess_of(other, ahead), self._design, names, slip.total
-            )
-            variance += self._uncertainty.variance(dict(zip(names, slopes, strict=True)))
-        return float(point.excess) / math.sqrt(variance)
+    def _angle_of(self, share: float) -> float | None:
+        """Return the angle in rad up to which a share of all equilibria lies."""
+        left = share * self.probabilities[Regime.EQUILIBRIUM]
+        *before, last = sorted(self._sides, key=lambda noisy: noisy.side)
+        for noisy in before:
+            roots = noisy.chance * noisy.root.probability
+            if left < roots:
+                last = noisy
+                break
+            left -= roots
+        of_side = left / last.chance
+        ahead = last.root.angle_of(of_side if last.side > 0.0 else last.root.probability - of_side)
+        return None if ahead is None else last.side * ahead
 
-    def _excess_of(self, design: JointDesign, ahead: float) -> float:
-        """Return g in units of r T for another design, at an angle ahead in rad."""
-        slip = taut_slip(design, self._tensions, self._load).facing(self._slip.side)
-        return float(slip.value(ahead))
+    def _variance_of_design(
+        self, slip: Slip, uncertainty: DesignUncertainty, ahead: float
+    ) -> float:
+        """Return what the design's uncertainty adds to the variance of g, in units of r T."""
+
+        def excess(design: JointDesign) -> float:
+            return float(taut_slip(design, self._tensions, self._load, slip.side).value(ahead))
+
+        names = uncertainty.parameters
+        slopes = excess_by_design(excess, self._design, names, slip.total)
+        return uncertainty.variance(dict(zip(names, slopes, strict=True)))
 
     @kept
     def _drawn(self) -> DrawnSlipAngles:
