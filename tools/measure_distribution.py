@@ -30,13 +30,17 @@ KINDS = {
     'any': 'any tensions',
     'equal': 'next to equal tensions',
     'slack': 'next to a slack cable',
+    'seat': 'hardly seated',
 }
 
 LEVEL = 0.9
 """Of the interval"""
 
 ANGLES = 100
-"""Of the grid from 0 to the stop; a root is where the chord between two of them is zero"""
+"""Of the grid from 0 to the stop; a root is searched for between two of them"""
+
+HALVINGS = 16
+"""Of the interval between them, before a chord"""
 
 LEAST = 0.05
 """Share of equilibria from which on the coverage of their interval counts"""
@@ -69,8 +73,11 @@ def unit(job: Job) -> tuple[Case, float]:
     draw = random.Random(f'{job.seed} {job.kind}')
     case = random_case(draw)
     total = case.tension_l + case.tension_s
-    stddev = draw.choice(SHARES) * total
-    weaker = min(case.tension_l, case.tension_s)
+    share = draw.choice(SHARES)
+    if job.kind == 'seat':
+        total = hardly_seated(case, draw.uniform(0.0, 6.0) * math.sqrt(2.0) * share)
+    stddev = share * total
+    weaker = total * min(case.tension_l, case.tension_s) / (case.tension_l + case.tension_s)
     if job.kind == 'equal':
         weaker = 0.5 * (total - draw.uniform(0.0, 6.0) * stddev)
     if job.kind == 'slack':
@@ -78,6 +85,14 @@ def unit(job: Job) -> tuple[Case, float]:
     if case.tension_l < case.tension_s:
         return case._replace(tension_l=weaker, tension_s=total - weaker), stddev
     return case._replace(tension_l=total - weaker, tension_s=weaker), stddev
+
+
+def hardly_seated(case: Case, beyond: float) -> float:
+    """Return a sum of tensions in N that is beyond what seats the joint by a share of itself."""
+    stop = case.design.max_bend_angle
+    _, axial, across = forces(case, np.linspace(-stop, stop, 2 * ANGLES))
+    pulls = np.hypot(axial, across) if case.design.contact_law == 'merged' else -axial
+    return float(max(pulls.max(), 1e-3) * (1.0 + 1e-9) / (1.0 - beyond))
 
 
 def drawn(case: Case, stddev: float, draws: int, seed: int) -> tuple[dict[Regime, float], Any]:
@@ -112,8 +127,14 @@ def brute_solved(case: Case, pairs: Any, side: float) -> tuple[dict[Regime, int]
     has_root = changes.any(axis=1)
     first = changes.argmax(axis=1)[has_root]
     rows = np.flatnonzero(has_root)
-    before, after = values[rows, first], values[rows, first + 1]
-    roots = grid[first] + (grid[1] - grid[0]) * before / (before - after)
+    low, high = grid[first], grid[first + 1]
+    each = case._replace(tension_l=pairs[0][rows], tension_s=pairs[1][rows])
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        same = (excess(each, middle, side) <= 0.0) == is_held[rows, first]
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    before, after = excess(each, low, side), excess(each, high, side)
+    roots = low + (high - low) * before / (before - after)
     held = int(np.sum(~has_root & is_held[:, 0]))
     rest = len(has_root) - held - len(rows)
     return {

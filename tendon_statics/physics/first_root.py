@@ -19,7 +19,10 @@ from .roots import cubic_zero
 LAST_STEP = 1e-4
 """rad, to an angle; the next would be a hundredth of it"""
 
-STEPS = 30
+LAST_MISS = 0.01
+"""Score that is missed before that step"""
+
+STEPS = 14
 """To such an angle at the most, should each but halve the range; two or so are taken"""
 
 USUAL_STEPS = 4
@@ -96,7 +99,7 @@ class FirstRoot:
             probe = angle, value - score, slope
             low, high = (probe, high) if (probe[1] < 0.0) == rises else (low, probe)
             nearer = ahead - probe[1] / slope if slope else math.nan
-            if abs(nearer - ahead) < LAST_STEP:
+            if abs(nearer - ahead) < LAST_STEP and abs(probe[1]) < LAST_MISS:
                 return min(max(nearer, low[0]), high[0])
             ahead = nearer
         return 0.5 * (low[0] + high[0])

@@ -5,14 +5,7 @@ order, so that it is above 0 at an angle x with the probability Φ(s), s = g(x) 
 difference of the tensions enters g through M alone, in proportion, and their sum through K alone,
 so that little is lost however far from slipping the unit is.
 
-Next to equal tensions noise decides which cable is the stronger, and next to a slack one whether
-it carries tension at all. Either is one more condition on the tensions, that a difference of them
-is above 0, as it is with the probability Φ(t) of its own score t. The correlation ρ of the two
-follows from their gradients, and so does
-
-    P(g > 0 and the condition) = Φ₂(s, t; ρ).
-
-What counts then is the score given the condition, the s' of Φ(s') = Φ₂(s, t; ρ) / Φ(t).
+There may be one more condition on the tensions; see `tension_conditions`.
 """
 
 from __future__ import annotations
@@ -23,16 +16,10 @@ from statistics import NormalDist
 
 from .first_root import FirstRoot, Knot
 from .kept import kept
-from .normal_pair import both_below
 from .roots import nearest_zero
 from .slip import Probe, Slip
+from .tension_conditions import SURE, Condition
 from .turns import turning_points
-
-FAR = 5.0
-"""Standard deviations that count as never"""
-
-SURE = 8.3
-"""Those of which a normal number is never, but for rounding"""
 
 FINE = 0.02
 """Standard deviations of g to which it is followed where it turns"""
@@ -40,61 +27,10 @@ FINE = 0.02
 ROUNDING = 1e-15
 """Probability that may be rounding"""
 
-RARE = 1e-3
-"""Probability of both that may be an error of `both_below`"""
-
-OUTER = 5e-4
-"""Share of a condition's probability up to which `both_below` is not exact enough"""
-
-NARROWEST = 1e-12
-"""Least variance, in place of what rounding makes of none"""
+RARE = 5e-3
+"""Probability of both of which an error of `both_below` is no small part"""
 
 _NORMAL = NormalDist()
-
-OUTER_SCORE = -_NORMAL.inv_cdf(OUTER)
-
-
-class Condition:
-    """That a difference of the tensions is above 0.
-
-    Parameters
-    ----------
-    behind, ahead : float
-        Weights of the tension of the cable behind the unit and of that ahead of it, whose squares
-        add up to 1.
-    score : float
-        Its value over its standard deviation.
-
-    Attributes
-    ----------
-    chance : float
-        Its probability.
-    """
-
-    def __init__(self, behind: float, ahead: float, score: float) -> None:
-        self.behind, self.ahead, self.score = behind, ahead, score
-        self.chance = _NORMAL.cdf(score)
-        self._shift = _NORMAL.pdf(score) / self.chance
-
-    def given(self, score: float, slope: float, correlation: float) -> tuple[float, float]:
-        """Return a score given that the condition holds, and its slope, from those without it."""
-        # By mean and deviation of the noise that is left, which is right far out and where
-        # rounding leaves no probability to tell from.
-        shift = self._shift
-        narrowed = 1.0 - correlation * correlation * shift * (shift + self.score)
-        narrowed = 1.0 / math.sqrt(max(narrowed, NARROWEST))
-        about = (score + correlation * shift) * narrowed
-        if abs(about) > SURE:
-            return about, slope * narrowed
-        share = both_below(score, self.score, correlation) / self.chance
-        if share < OUTER:
-            return min(about, -OUTER_SCORE), slope * narrowed
-        if share > 1.0 - OUTER:
-            return max(about, OUTER_SCORE), slope * narrowed
-        given = _NORMAL.inv_cdf(share)
-        rest = math.sqrt(max(1.0 - correlation * correlation, NARROWEST))
-        density = _NORMAL.pdf(score) * _NORMAL.cdf((self.score - correlation * score) / rest)
-        return given, slope * density / (self.chance * _NORMAL.pdf(given))
 
 
 class NoisySlip:

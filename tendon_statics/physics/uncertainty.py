@@ -10,7 +10,7 @@ whatever the regime: F(0) is the probability of ``driven_to_stop``, 1 − F(θ_m
 and in between lies an equilibrium. Where g falls, it is Φ(−s), and the two change places. Where g
 turns it may have several roots, and the one nearest to 0 counts; see `first_root`. Where noise may
 turn the stronger cable into the weaker there is an F of each side, and where it may end a cable's
-tension one of taut cables; see `noisy_slip`.
+tension, or lift the joint off its seat, one given that it does not; see `noisy_slip`.
 
 The gradient of the root, on which deviations rest, says nothing of all this near the end of a
 regime.
@@ -27,12 +27,11 @@ from .design_uncertainty import DesignUncertainty
 from .drawn_slip_angles import DrawnSlipAngles
 from .kept import kept
 from .load import UPRIGHT, Load
-from .noisy_slip import FAR, Condition, NoisySlip
+from .noisy_slip import NoisySlip
 from .regime import Regime
 from .slip import Slip
+from .tension_conditions import Condition, TensionConditions
 from .tensions import Tensions, check_tensions, taut_slip
-
-SQRT_HALF = math.sqrt(0.5)
 
 
 def slip_angle_distribution(
@@ -46,9 +45,10 @@ def slip_angle_distribution(
 ) -> SlipAngleDistribution:
     """Return the distribution of the slip angle of a pair of noisy tensions.
 
-    In closed form, but where noise may lift the joint off its seat, or turn the stronger cable
-    into the weaker as well as end its tension: there from `DRAWS` draws through `solve_batch`,
-    which takes a hundred times as long. `SlipAngleDistribution.is_closed_form` tells.
+    In closed form, but where noise may change two of these: which cable is the stronger, whether
+    the weaker is taut, and whether the joint is seated; or, with the paper's law, the last of
+    them. There it is from `DRAWS` draws through `solve_batch`, which takes a hundred times as
+    long. `SlipAngleDistribution.is_closed_form` tells.
 
     Parameters
     ----------
@@ -96,52 +96,33 @@ class SlipAngleDistribution:
         self._slip = slip
         self._stddev = tension_stddev
         self._uncertainty = uncertainty
-        weak, strong = sorted(tensions)
-        self._lead = SQRT_HALF * (strong - weak) / tension_stddev
-        self._tautness = weak / tension_stddev
+        self._conditions = TensionConditions.of(design, load, slip, tensions, tension_stddev)
 
-    @kept
+    @property
     def is_closed_form(self) -> bool:
         """Whether it is worked out in closed form; otherwise from `DRAWS` draws.
 
-        It is where noise does not lift the joint off its seat, and does not both turn the
-        stronger cable into the weaker and end its tension.
+        It is where noise may change at most one of these: which cable is the stronger, whether the
+        weaker is taut, and whether the joint is seated. With the paper's law, whose K is far from
+        linear there, it may not change the last.
         """
-        if self._lead <= FAR and self._tautness <= FAR:
-            return False
-        far = FAR * self._stddev / SQRT_HALF
-        return bool(self._slip.excess > far) or self._seat > far
-
-    @property
-    def _seat(self) -> float:
-        """By how much both tensions together exceed in N what seats the joint."""
-        if not self._design.law.carries_more_than_cables:
-            return float(self._slip.excess)
-        dead = self._load.on(self._design)
-        return sum(self._tensions) - dead.largest_pull(self._design.max_bend_angle)
+        return not self._conditions.is_bent and len(self._conditions.all) <= 1
 
     @kept
     def _sides(self) -> list[NoisySlip]:
         """The slip function towards each side to which the unit may slip, the likelier first."""
-        slip = self._slip
-        if self._lead <= FAR:
-            return [
-                self._noisy(slip, Condition(-SQRT_HALF, SQRT_HALF, self._lead)),
-                self._noisy(slip.mirrored(), Condition(-SQRT_HALF, SQRT_HALF, -self._lead)),
-            ]
-        return [
-            self._noisy(slip, Condition(1.0, 0.0, self._tautness) if self._may_slacken else None)
-        ]
+        condition = next(iter(self._conditions.all), None)
+        sides = [self._noisy(self._slip, condition)]
+        if self._conditions.stronger is not None:
+            other = self._conditions.stronger.opposite()
+            sides.append(self._noisy(self._slip.mirrored(), other))
+        return sides
 
     def _noisy(self, slip: Slip, condition: Condition | None) -> NoisySlip:
         of_design = None
         if self._uncertainty is not None:
             of_design = partial(self._variance_of_design, slip, self._uncertainty)
         return NoisySlip(slip, self._design.max_bend_angle, self._stddev, condition, of_design)
-
-    @property
-    def _may_slacken(self) -> bool:
-        return self._tautness <= FAR
 
     def probability(self, regime: Regime | str) -> float:
         """Return the probability of what `solve` would answer without noise.
@@ -166,7 +147,7 @@ class SlipAngleDistribution:
             Regime.HELD: held,
             Regime.SLIPPING: 0.0,
             Regime.DRIVEN_TO_STOP: driven,
-            Regime.SLACK: 1.0 - self._sides[0].chance if self._may_slacken else 0.0,
+            Regime.SLACK: 0.0 if self._conditions.taut is None else 1.0 - self._sides[0].chance,
         }
 
     def cdf(self, angle: float) -> float:
@@ -209,8 +190,8 @@ class SlipAngleDistribution:
         return None if ahead is None else noisy.side * ahead
 
     def _of_side(self, noisy: NoisySlip) -> float:
-        """Return the probability that both cables are taut, given which is the stronger."""
-        return noisy.chance if self._may_slacken else 1.0
+        """Return the probability of what `noisy` is given, when the side is known."""
+        return noisy.chance if self._conditions.stronger is None else 1.0
 
     def interval(self, level: float = 0.95) -> tuple[float, float] | None:
         """Return the interval in rad that holds the angle of an equilibrium with a probability.
