@@ -16,10 +16,10 @@ from statistics import NormalDist
 
 from .roots import cubic_zero
 
-LAST_STEP = 1e-4
-"""rad, to an angle; the next would be a hundredth of it"""
+LAST_STEP = 1e-3
+"""rad, to an angle; the next would be a thousandth of it as a rule"""
 
-LAST_MISS = 0.01
+LAST_MISS = 0.05
 """Score that is missed before that step"""
 
 STEPS = 14

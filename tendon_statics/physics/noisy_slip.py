@@ -18,7 +18,7 @@ from .first_root import FirstRoot, Knot
 from .kept import kept
 from .roots import nearest_zero
 from .slip import Probe, Slip
-from .tension_conditions import SURE, Condition
+from .tension_conditions import FAR, SURE, Condition
 from .turns import turning_points
 
 FINE = 0.02
@@ -91,7 +91,8 @@ class NoisySlip:
             return []
         deviation = max(self._deviation(first)[0], self._deviation(last)[0]) / self._slip.total
         # It is much the same at all angles.
-        if nearest_zero(first, last, least, greatest) > SURE * deviation:
+        sure = SURE if self._condition is None else FAR
+        if nearest_zero(first, last, least, greatest) > sure * deviation:
             return []
         return turning_points(self._slip, first, last, FINE * deviation)
 

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import math
 from statistics import NormalDist
-from typing import NamedTuple
 
 from .design import JointDesign
 from .load import Load
@@ -91,50 +90,47 @@ class Condition:
         return Condition(self.behind, self.ahead, -self.score)
 
 
-class TensionConditions(NamedTuple):
-    """The conditions that noise may end; None where it never does."""
+class TensionConditions:
+    """The conditions that noise may end for a pair of taut cables.
 
-    stronger: Condition | None
-    """That the stronger cable is"""
-    taut: Condition | None
-    """That the weaker cable is"""
-    seated: Condition | None
-    """That the joint is"""
-    is_bent: bool
-    """Whether K may be far from linear in the tensions"""
+    Parameters
+    ----------
+    slip : Slip
+        Towards the stronger cable.
+    stddev : float
+        Standard deviation of each tension in N.
 
-    @classmethod
-    def of(
-        cls, design: JointDesign, load: Load, slip: Slip, tensions: Tensions, stddev: float
-    ) -> TensionConditions:
-        """Return those of a pair of taut cables.
+    Attributes
+    ----------
+    stronger, taut, seated : Condition or None
+        That the stronger cable is, that the weaker one is, and that the joint is; None where noise
+        never ends it.
+    near : list of Condition
+        Those of them that it may end.
+    is_bent : bool
+        Whether K may be far from linear in the tensions.
+    """
 
-        Parameters
-        ----------
-        slip : Slip
-            Towards the stronger cable.
-        stddev : float
-            Standard deviation of each tension in N.
-        """
-        weak, strong = sorted(tensions)
-        lead, tautness = SQRT_HALF * (strong - weak) / stddev, weak / stddev
-        seating, seated, is_bent = SQRT_HALF * slip.excess / stddev, None, False
-        if seating <= BENT:
-            if not design.law.carries_more_than_cables:
-                is_bent = True
-            else:
-                pull = load.on(design).largest_pull(design.max_bend_angle)
-                seating = SQRT_HALF * (sum(tensions) - pull) / stddev
-                if seating <= FAR:
-                    seated = Condition(SQRT_HALF, SQRT_HALF, seating)
-        return cls(
-            Condition(-SQRT_HALF, SQRT_HALF, lead) if lead <= FAR else None,
-            Condition(1.0, 0.0, tautness) if tautness <= FAR else None,
-            seated,
-            is_bent,
-        )
-
-    @property
-    def all(self) -> list[Condition]:
-        """Those that noise may end."""
-        return [one for one in (self.stronger, self.taut, self.seated) if one is not None]
+    def __init__(
+        self, design: JointDesign, load: Load, slip: Slip, tensions: Tensions, stddev: float
+    ) -> None:
+        left, right = tensions
+        lead, weak = abs(right - left), min(left, right)
+        far_apart = FAR * stddev / SQRT_HALF
+        self.stronger: Condition | None = None
+        self.taut: Condition | None = None
+        self.seated: Condition | None = None
+        self.near: list[Condition] = []
+        if lead <= far_apart:
+            self.stronger = Condition(-SQRT_HALF, SQRT_HALF, SQRT_HALF * lead / stddev)
+            self.near.append(self.stronger)
+        if weak <= FAR * stddev:
+            self.taut = Condition(1.0, 0.0, weak / stddev)
+            self.near.append(self.taut)
+        is_close = slip.excess * SQRT_HALF <= BENT * stddev
+        self.is_bent = is_close and not design.law.carries_more_than_cables
+        if is_close and not self.is_bent:
+            spare = left + right - load.on(design).largest_pull(design.max_bend_angle)
+            if spare <= far_apart:
+                self.seated = Condition(SQRT_HALF, SQRT_HALF, SQRT_HALF * spare / stddev)
+                self.near.append(self.seated)

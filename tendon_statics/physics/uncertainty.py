@@ -96,7 +96,7 @@ class SlipAngleDistribution:
         self._slip = slip
         self._stddev = tension_stddev
         self._uncertainty = uncertainty
-        self._conditions = TensionConditions.of(design, load, slip, tensions, tension_stddev)
+        self._conditions = TensionConditions(design, load, slip, tensions, tension_stddev)
 
     @property
     def is_closed_form(self) -> bool:
@@ -106,12 +106,12 @@ class SlipAngleDistribution:
         weaker is taut, and whether the joint is seated. With the paper's law, whose K is far from
         linear there, it may not change the last.
         """
-        return not self._conditions.is_bent and len(self._conditions.all) <= 1
+        return not self._conditions.is_bent and len(self._conditions.near) <= 1
 
     @kept
     def _sides(self) -> list[NoisySlip]:
         """The slip function towards each side to which the unit may slip, the likelier first."""
-        condition = next(iter(self._conditions.all), None)
+        condition = next(iter(self._conditions.near), None)
         sides = [self._noisy(self._slip, condition)]
         if self._conditions.stronger is not None:
             other = self._conditions.stronger.opposite()
@@ -130,7 +130,7 @@ class SlipAngleDistribution:
         Of ``equilibrium``, ``held``, ``driven_to_stop`` and, if noise can make one, ``slack``.
         What it would refuse is in none of them.
         """
-        return self.probabilities[Regime(regime)]
+        return self.probabilities[regime if type(regime) is Regime else Regime(regime)]
 
     @kept
     def probabilities(self) -> dict[Regime, float]:
