@@ -228,13 +228,22 @@ def test_a_quantile_within_another_regime_is_none():
 def test_the_designs_own_uncertainty_counts(law):
     """Against draws of designs, solved one by one."""
     design = replace(PRELIMINARY, contact_law=law, friction_coefficient=0.3)
-    tension_s = 1.01 * _slip_tension(design)
+    assert_as_of_drawn_designs(design, 1.01 * _slip_tension(design), 0.01)
+
+
+def test_the_designs_own_uncertainty_counts_next_to_equal_tensions_too():
+    design = replace(PRELIMINARY, friction_coefficient=0.02)
+    assert_as_of_drawn_designs(design, 1.003, 0.005)
+
+
+def assert_as_of_drawn_designs(design, tension_s, friction_stddev):
     names = ('friction_coefficient', 'cable_offset')
-    deviations = np.array([0.01, 1e-4])
+    deviations = np.array([friction_stddev, 1e-4])
     uncertainty = DesignUncertainty(names, tuple(map(tuple, np.diag(deviations**2).tolist())))
     found = slip_angle_distribution(
         design, 1.0, tension_s, tension_stddev=0.005, design_covariance=uncertainty
     )
+    assert found.is_closed_form
     noise = np.random.default_rng(8)
     regimes = []
     for _ in range(4000):
