@@ -30,6 +30,8 @@ ROUNDING = 1e-15
 RARE = 5e-3
 """Probability of both of which an error of `both_below` is no small part"""
 
+SQRT_TWO = math.sqrt(2.0)
+
 _NORMAL = NormalDist()
 
 
@@ -140,7 +142,8 @@ class NoisySlip:
         state = probe[8]
         lever = slip.joint.lever
         by_sum = slip.share * slip.law.by_share(state) - state[0]
-        variance = 2.0 * self._stddev**2 * (by_sum * by_sum + lever * lever)
+        deviation = SQRT_TWO * self._stddev * math.sqrt(by_sum * by_sum + lever * lever)
         if self._of_design is not None:
-            variance += slip.total**2 * self._of_design(probe[0])
-        return math.sqrt(variance), by_sum - lever, by_sum + lever
+            of_design = slip.total * math.sqrt(self._of_design(probe[0]))
+            deviation = math.hypot(deviation, of_design)
+        return deviation, by_sum - lever, by_sum + lever

@@ -102,11 +102,10 @@ class TensionConditions:
 
     Attributes
     ----------
-    stronger, taut, seated : Condition or None
-        That the stronger cable is, that the weaker one is, and that the joint is; None where noise
-        never ends it.
     near : list of Condition
-        Those of them that it may end.
+        Those that it may end.
+    stronger, taut : Condition or None
+        Of these, that the stronger cable is, and that the weaker one is.
     is_bent : bool
         Whether K may be far from linear in the tensions.
     """
@@ -119,7 +118,6 @@ class TensionConditions:
         far_apart = FAR * stddev / SQRT_HALF
         self.stronger: Condition | None = None
         self.taut: Condition | None = None
-        self.seated: Condition | None = None
         self.near: list[Condition] = []
         if lead <= far_apart:
             self.stronger = Condition(-SQRT_HALF, SQRT_HALF, SQRT_HALF * lead / stddev)
@@ -132,5 +130,5 @@ class TensionConditions:
         if is_close and not self.is_bent:
             spare = left + right - load.on(design).largest_pull(design.max_bend_angle)
             if spare <= far_apart:
-                self.seated = Condition(SQRT_HALF, SQRT_HALF, SQRT_HALF * spare / stddev)
-                self.near.append(self.seated)
+                score = SQRT_HALF * spare / stddev
+                self.near.append(Condition(SQRT_HALF, SQRT_HALF, score))
