@@ -162,7 +162,7 @@ def measured(job: Job) -> Result:
         return [*map(said.probability, Regime), said.interval(0.95)]
 
     found = distribution()
-    rounds = 100 if found.is_closed_form else 1
+    rounds = 100 if found.is_closed_form else 3
     works = probabilities, everything, lambda: solve(*pair, load=case.load)
     of_probabilities, of_everything, alone = best_times(works, rounds)
     of_regime, angles = drawn(case, stddev, job.draws, job.seed)
