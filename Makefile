@@ -51,6 +51,10 @@ steady: setup ## Run the tests of the node beside four busy loops, ten times (RU
 measure-filter: setup ## Measure the filter on random sessions, beside the tracker (ARGS='--sessions 48')
 	@$(run) cd tools && python -m measure_filter $(ARGS)
 
+.PHONY: measure-distribution
+measure-distribution: setup ## Measure the distribution of one pair against draws (ARGS='--units 300')
+	@$(run) python tools/measure_distribution.py $(ARGS)
+
 .PHONY: measure-smoothing
 measure-smoothing: setup ## Measure how the filter smooths tensions, in its own errors
 	@$(run) cd tools && python -m measure_filter.smoothing $(ARGS)

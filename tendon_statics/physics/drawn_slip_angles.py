@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import bisect
 import math
 
 from .design import JointDesign
@@ -52,6 +51,7 @@ class DrawnSlipAngles:
         else:
             batch = solve_batch(design, pairs[0], pairs[1], load)
             regimes, angles = batch.regime, batch.bend_angle
+        self._side = -1.0 if tensions.tension_l > tensions.tension_s else 1.0
         self._regimes = regimes
         self._codes = REGIME_CODES
         at_root = regimes == REGIME_CODES[Regime.EQUILIBRIUM]
@@ -74,13 +74,15 @@ class DrawnSlipAngles:
         return (self._driven[side] + count) / max(self._of_side[side], 1)
 
     def quantile(self, q: float) -> float | None:
-        """Return the slip angle in rad up to which a share `q` lies; None where no root does."""
-        place = bisect.bisect_left(
-            range(len(self._angles)), q, key=lambda index: self.cdf(self._angles[index])
-        )
-        if not self._angles or place == len(self._angles) or q < self.cdf(0.0):
+        """Return the angle in rad at which `cdf` is q; None where that is in no equilibrium.
+
+        On the side of the stronger cable.
+        """
+        ahead = [angle for angle in self._angles if self._side * angle >= 0.0]
+        place = math.ceil(q * self._of_side[self._side] - self._driven[self._side])
+        if not 0 < place <= len(ahead):
             return None
-        return self._angles[place]
+        return ahead[place - 1] if self._side > 0.0 else ahead[-place]
 
     def interval(self, level: float) -> tuple[float, float] | None:
         """Return the ends in rad between which roots lie with a probability; None without any."""

@@ -11,24 +11,26 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from statistics import NormalDist
 
 from .kept import kept
 from .roots import cubic_zero
 
-LOOKS = 7
-"""Angles from 0 to the stop at which it is seen how a score turns"""
+LAST_STEP = 1e-3
+"""rad, to an angle; the next would be a thousandth of it as a rule"""
 
-LAST_STEP = 1e-6
-"""rad, to an angle; the next would be a thousandth of it"""
+LAST_MISS = 0.05
+"""Score that is missed before that step"""
 
-STEPS = 60
-"""To such an angle at the most, should each but halve the range; two are taken as a rule"""
+STEPS = 14
+"""To such an angle at the most, should each but halve the range; two or so are taken"""
+
+USUAL_STEPS = 4
+"""Those after which every other one halves the range"""
 
 Knot = tuple[float, float, float]
-"""An angle ahead in rad, the score there, and about the score's slope: that of g over σ_g, which
-turns far less than g does"""
+"""An angle ahead in rad, the score there, and about its slope"""
 
 _NORMAL = NormalDist()
 
@@ -39,11 +41,9 @@ class FirstRoot:
     Parameters
     ----------
     score : callable
-        Returns the knot at an angle ahead in rad.
-    ends : tuple of Knot
-        Those at 0 and at the stop.
-    is_monotonic : bool
-        Whether it rises or falls all the way, so that its ends tell.
+        Knot of an angle ahead in rad.
+    knots : sequence of Knot
+        From 0 to the stop, ascending, with all at which the score turns.
 
     Attributes
     ----------
@@ -51,18 +51,9 @@ class FirstRoot:
         The score's range. Below the least the unit is driven to the stop, above the greatest held.
     """
 
-    def __init__(
-        self, score: Callable[[float], Knot], ends: tuple[Knot, Knot], *, is_monotonic: bool
-    ) -> None:
-        self._score = score
-        first, last = ends
-        self._knots = [first, last]
-        if not is_monotonic:
-            step = last[0] / (LOOKS - 1)
-            looks = [first, *(score(step * index) for index in range(1, LOOKS - 1)), last]
-            tops = [_top(*three, step) for three in zip(looks, looks[1:], looks[2:], strict=False)]
-            self._knots = sorted([*looks, *(score(angle) for angle in tops if angle is not None)])
-        scores = [knot[1] for knot in self._knots]
+    def __init__(self, score: Callable[[float], Knot], knots: Sequence[Knot]) -> None:
+        self._score, self._knots = score, knots
+        scores = [knot[1] for knot in knots]
         self.least, self.greatest = min(scores), max(scores)
 
     @kept
@@ -72,7 +63,7 @@ class FirstRoot:
 
     def before(self, angle: float) -> float:
         """Probability of a root up to an angle ahead in rad, within the stop."""
-        scores = [score for knot, score, _ in self._knots if knot < angle]
+        scores = [knot[1] for knot in self._knots if knot[0] < angle]
         scores.append(self._score(angle)[1])
         return _NORMAL.cdf(max(scores)) - _NORMAL.cdf(min(scores))
 
@@ -97,33 +88,28 @@ class FirstRoot:
 
     def _between(self, one: Knot, other: Knot, score: float) -> float:
         """Angle ahead in rad between two knots at which the score is what it is to be."""
-        (low, at_low, low_slope), (high, at_high, high_slope) = one, other
-        rises = at_high > at_low
-        ahead: float = cubic_zero(
-            (low, at_low - score, low_slope), (high, at_high - score, high_slope)
-        )
-        if not low <= ahead <= high:
-            ahead = 0.5 * (low + high)
-        before: Knot | None = None
-        for _ in range(STEPS):
-            knot = self._score(ahead)
-            _, value, slope = knot
-            low, high = (ahead, high) if (value < score) == rises else (low, ahead)
-            if before is not None and ahead != before[0]:
-                slope = (value - before[1]) / (ahead - before[0])
-            nearer = ahead + (score - value) / slope if slope else math.nan
-            if not low <= nearer <= high:
-                nearer = 0.5 * (low + high)
-            if before is not None and abs(nearer - ahead) < LAST_STEP:
-                return nearer
-            before, ahead = knot, nearer
-        return ahead
+        low, high = ((angle, value - score, slope) for angle, value, slope in (one, other))
+        rises = low[1] < high[1]
+        ahead = cubic_zero(low, high)
+        if not low[0] <= ahead <= high[0]:
+            ahead = _from_turn(low, high)
+        for step in range(STEPS):
+            if not low[0] <= ahead <= high[0] or (step > USUAL_STEPS and step % 2):
+                ahead = 0.5 * (low[0] + high[0])
+            angle, value, slope = self._score(ahead)
+            probe = angle, value - score, slope
+            low, high = (probe, high) if (probe[1] < 0.0) == rises else (low, probe)
+            nearer = ahead - probe[1] / slope if slope else math.nan
+            if abs(nearer - ahead) < LAST_STEP and abs(probe[1]) < LAST_MISS:
+                return min(max(nearer, low[0]), high[0])
+            ahead = nearer
+        return 0.5 * (low[0] + high[0])
 
 
-def _top(one: Knot, middle: Knot, other: Knot, step: float) -> float | None:
-    """Angle at which a parabola through three knots turns, if it does between them."""
-    to, onwards = middle[1] - one[1], other[1] - middle[1]
-    return middle[0] + 0.5 * step * (to + onwards) / (to - onwards) if to * onwards < 0.0 else None
+def _from_turn(low: Knot, high: Knot) -> float:
+    """Where a parabola through two knots is zero that turns at the flatter one."""
+    turn, other = (low, high) if abs(low[2]) < abs(high[2]) else (high, low)
+    return turn[0] + (other[0] - turn[0]) * math.sqrt(turn[1] / (turn[1] - other[1]))
 
 
 def _score_of(probability: float) -> float:

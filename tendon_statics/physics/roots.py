@@ -156,14 +156,22 @@ def _changes_sign(before: float, after: float) -> bool:
 
 def _may_vanish(left: Probe, right: Probe, least: float, greatest: float) -> bool:
     """Whether a function with slopes within these bounds, of both signs, can have a zero."""
+    return not nearest_zero(left, right, least, greatest) > 0.0
+
+
+def nearest_zero(left: Probe, right: Probe, least: float, greatest: float) -> float:
+    """Return how near to zero a function with slopes within bounds of both signs can come.
+
+    Not above 0 where it can have a zero.
+    """
     at_left, at_right, width = left[1], right[1], right[0] - left[0]
     if at_left < 0.0:
         at_left, at_right, least, greatest = -at_left, -at_right, -greatest, -least
-    if not at_left > 0.0 < at_right:
-        return True
+    if not (at_left > 0.0 < at_right and least < greatest):
+        return 0.0
     # It comes down no further than to where steepest descent and ascent meet.
-    lowest = at_left * greatest - at_right * least + least * greatest * width
-    return not lowest > 0.0
+    lowest: float = at_left * greatest - at_right * least + least * greatest * width
+    return lowest / (greatest - least)
 
 
 def _clusters(intervals: list[Bracket]) -> list[list[Probe]]:

@@ -8,7 +8,9 @@ g(x) ≥ 0. So to first order in the noise
 
 whatever the regime: F(0) is the probability of ``driven_to_stop``, 1 − F(θ_max) that of ``held``,
 and in between lies an equilibrium. Where g falls, it is Φ(−s), and the two change places. Where g
-turns it may have several roots, and the one nearest to 0 counts; see `first_root`.
+turns it may have several roots, and the one nearest to 0 counts; see `first_root`. Where noise may
+turn the stronger cable into the weaker there is an F of each side, and where it may end a cable's
+tension, or lift the joint off its seat, one given that it does not; see `noisy_slip`.
 
 The gradient of the root, on which deviations rest, says nothing of all this near the end of a
 regime.
@@ -17,25 +19,20 @@ regime.
 from __future__ import annotations
 
 import math
-from statistics import NormalDist
+from functools import partial
 
 from .design import JointDesign
 from .design_gradients import excess_by_design
 from .design_uncertainty import DesignUncertainty
 from .drawn_slip_angles import DrawnSlipAngles
-from .first_root import FirstRoot, Knot
-from .gradients import slip_by_tensions
 from .kept import kept
 from .load import UPRIGHT, Load
+from .noisy_slip import NoisySlip
 from .regime import Regime
-from .slip import Probe, Slip
+from .slip import Slip
 from .state import Equilibrium
+from .tension_conditions import Condition, TensionConditions
 from .tensions import Tensions, check_tensions, taut_slip
-
-FAR = 5.0
-"""Standard deviations that count as never"""
-
-_NORMAL = NormalDist()
 
 
 def slip_angle_distribution(
@@ -49,9 +46,10 @@ def slip_angle_distribution(
 ) -> SlipAngleDistribution:
     """Return the distribution of the slip angle of a pair of noisy tensions.
 
-    In closed form where the side of slip is sure; from `DRAWS` draws through `solve_batch` next to
-    equal tensions and to a slack cable, which takes a hundred times as long.
-    `SlipAngleDistribution.is_closed_form` tells.
+    In closed form, but where noise may change two of these: which cable is the stronger, whether
+    the weaker is taut, and whether the joint is seated; or, with the paper's law, the last of
+    them. There it is from `DRAWS` draws through `solve_batch`, which takes a hundred times as
+    long. `SlipAngleDistribution.is_closed_form` tells.
 
     Parameters
     ----------
@@ -125,40 +123,33 @@ class SlipAngleDistribution:
         self._slip = slip
         self._stddev = tension_stddev
         self._uncertainty = uncertainty
-        self._stop = design.max_bend_angle
+        self._conditions = TensionConditions(design, load, slip, tensions, tension_stddev)
 
-    @kept
-    def _direction(self) -> float:
-        """1 where the slip function rises through the range, −1 where it falls, else 0."""
-        if not self._slip.is_determined:
-            return 1.0  # the same at all angles: held, or driven to the stop
-        least, greatest = self._slip.slope_bounds(*self._ends)
-        return 1.0 if least > 0.0 else -1.0 if greatest < 0.0 else 0.0
-
-    @kept
-    def _ends(self) -> tuple[Probe, Probe]:
-        """The slip function at 0 and at the stop."""
-        return self._slip.probe(0.0), self._slip.probe(self._stop)
-
-    @kept
-    def _root(self) -> FirstRoot:
-        first, last = self._ends
-        return FirstRoot(
-            self._score,
-            (self._score_of(first), self._score_of(last)),
-            is_monotonic=self._direction != 0.0,
-        )
-
-    @kept
+    @property
     def is_closed_form(self) -> bool:
         """Whether it is worked out in closed form; otherwise from `DRAWS` draws.
 
-        It is where noise neither turns the stronger cable into the weaker nor ends its tension.
+        It is where noise may change at most one of these: which cable is the stronger, whether the
+        weaker is taut, and whether the joint is seated. With the paper's law, whose K is far from
+        linear there, it may not change the last.
         """
-        weak, strong = sorted(self._tensions)
-        spare = min(weak, self._slip.excess / math.sqrt(2.0))
-        surest: float = min((strong - weak) / math.sqrt(2.0), spare)
-        return surest > FAR * self._stddev
+        return not self._conditions.is_bent and len(self._conditions.near) <= 1
+
+    @kept
+    def _sides(self) -> list[NoisySlip]:
+        """The slip function towards each side to which the unit may slip, the likelier first."""
+        condition = next(iter(self._conditions.near), None)
+        sides = [self._noisy(self._slip, condition)]
+        if self._conditions.stronger is not None:
+            other = self._conditions.stronger.opposite()
+            sides.append(self._noisy(self._slip.mirrored(), other))
+        return sides
+
+    def _noisy(self, slip: Slip, condition: Condition | None) -> NoisySlip:
+        of_design = None
+        if self._uncertainty is not None:
+            of_design = partial(self._variance_of_design, slip, self._uncertainty)
+        return NoisySlip(slip, self._design.max_bend_angle, self._stddev, condition, of_design)
 
     def probability(self, regime: Regime | str) -> float:
         """Return the probability of what `solve` would answer without noise.
@@ -166,28 +157,33 @@ class SlipAngleDistribution:
         Of ``equilibrium``, ``held``, ``driven_to_stop`` and, if noise can make one, ``slack``.
         What it would refuse is in none of them.
         """
-        return self.probabilities[Regime(regime)]
+        return self.probabilities[regime if type(regime) is Regime else Regime(regime)]
 
     @kept
     def probabilities(self) -> dict[Regime, float]:
         """The probability of each regime."""
         if not self.is_closed_form:
             return {regime: self._drawn.probability(regime) for regime in Regime}
+        equilibrium = held = driven = 0.0
+        for noisy in self._sides:
+            equilibrium += noisy.chance * noisy.root.probability
+            held += noisy.chance * noisy.held
+            driven += noisy.chance * noisy.driven
         return {
-            Regime.EQUILIBRIUM: self._root.probability,
-            Regime.HELD: _NORMAL.cdf(-self._root.greatest),
+            Regime.EQUILIBRIUM: equilibrium,
+            Regime.HELD: held,
             Regime.SLIPPING: 0.0,
-            Regime.DRIVEN_TO_STOP: _NORMAL.cdf(self._root.least),
-            Regime.SLACK: 0.0,
+            Regime.DRIVEN_TO_STOP: driven,
+            Regime.SLACK: 0.0 if self._conditions.taut is None else 1.0 - self._sides[0].chance,
         }
 
     def cdf(self, angle: float) -> float:
         """Return the probability that the slip angle lies between 0, or before, and an angle.
 
         What is said of a negative angle is said of its mirror image: the slip angle towards
-        cable l, up to that. The whole of one side is 1. Of the two other regimes
-        ``driven_to_stop`` lies before 0 and ``held`` beyond the stop; where the slip function
-        falls all the way it is the other way round.
+        cable l, up to that. The whole of one side is 1; 0 belongs to that of the stronger cable.
+        Of the two other regimes ``driven_to_stop`` lies before 0 and ``held`` beyond the stop;
+        where the slip function falls all the way it is the other way round.
 
         Parameters
         ----------
@@ -196,13 +192,16 @@ class SlipAngleDistribution:
         """
         if not self.is_closed_form:
             return self._drawn.cdf(angle)
-        ahead: float = self._slip.side * angle
-        if ahead < 0.0:
-            return 0.0
-        return self._before_zero + self._root.before(min(ahead, self._stop))
+        for noisy in self._sides:
+            ahead: float = noisy.side * angle
+            if ahead >= 0.0:
+                return self._of_side(noisy) * noisy.cdf(ahead)
+        return 0.0
 
     def quantile(self, q: float) -> float | None:
         """Return the angle in rad at which `cdf` is q; None where that is in no equilibrium.
+
+        On the side of the stronger cable.
 
         Raises
         ------
@@ -213,24 +212,18 @@ class SlipAngleDistribution:
             raise ValueError(f'q is {q!r}, allowed is between 0 and 1')
         if not self.is_closed_form:
             return self._drawn.quantile(q)
-        share = q - self._before_zero
-        return self._angle_of(share) if 0.0 < share <= self._root.probability else None
+        noisy = self._sides[0]
+        ahead = noisy.quantile(q / self._of_side(noisy))
+        return None if ahead is None else noisy.side * ahead
 
-    @kept
-    def _before_zero(self) -> float:
-        """What of `cdf` lies before 0."""
-        first = Regime.HELD if self._direction < 0.0 else Regime.DRIVEN_TO_STOP
-        return self.probabilities[first]
-
-    def _angle_of(self, share: float) -> float | None:
-        """Angle in rad up to which roots have a probability."""
-        ahead = self._root.angle_of(share)
-        return None if ahead is None else self._slip.side * ahead
+    def _of_side(self, noisy: NoisySlip) -> float:
+        """Return the probability of what `noisy` is given, when the side is known."""
+        return noisy.chance if self._conditions.stronger is None else 1.0
 
     def interval(self, level: float = 0.95) -> tuple[float, float] | None:
         """Return the interval in rad that holds the angle of an equilibrium with a probability.
 
-        Given that it is one; None where it never is.
+        Given that it is one; None where it never is, as far as its probability is known.
 
         Parameters
         ----------
@@ -246,35 +239,37 @@ class SlipAngleDistribution:
             raise ValueError(f'level is {level!r}, allowed is between 0 and 1')
         if not self.is_closed_form:
             return self._drawn.interval(level)
-        whole = self._root.probability
-        shares = (0.5 * (1.0 - level), 0.5 * (1.0 + level))
-        one, other = (self._angle_of(whole * share) for share in shares)
-        if one is None or other is None:
+        if not self.probabilities[Regime.EQUILIBRIUM] > self._sides[0].least_known:
             return None
-        return min(one, other), max(one, other)
+        low = self._angle_of(0.5 * (1.0 - level))
+        high = self._angle_of(0.5 * (1.0 + level))
+        return None if low is None or high is None else (low, high)
 
-    def _score(self, ahead: float) -> Knot:
-        """Return s = g / σ_g at an angle ahead in rad."""
-        return self._score_of(self._slip.probe(ahead))
+    def _angle_of(self, share: float) -> float | None:
+        """Return the angle in rad up to which a share of all equilibria lies."""
+        left = share * self.probabilities[Regime.EQUILIBRIUM]
+        *before, last = sorted(self._sides, key=lambda noisy: noisy.side)
+        for noisy in before:
+            roots = noisy.chance * noisy.root.probability
+            if left < roots:
+                last = noisy
+                break
+            left -= roots
+        of_side = left / last.chance
+        ahead = last.root.angle_of(of_side if last.side > 0.0 else last.root.probability - of_side)
+        return None if ahead is None else last.side * ahead
 
-    def _score_of(self, probe: Probe) -> Knot:
-        """Return s = g / σ_g where the slip function was probed."""
-        slip, (ahead, excess, slope) = self._slip, probe[:3]
-        behind, in_front = slip_by_tensions(slip, slip.point(probe), self._design.relative_lever)
-        variance = self._stddev**2 * (behind * behind + in_front * in_front)
-        if self._uncertainty is not None:
-            names = self._uncertainty.parameters
-            slopes = excess_by_design(
-                lambda other: self._excess_of(other, ahead), self._design, names, slip.total
-            )
-            variance += self._uncertainty.variance(dict(zip(names, slopes, strict=True)))
-        deviation = math.sqrt(variance)
-        return ahead, excess / deviation, slope / deviation
+    def _variance_of_design(
+        self, slip: Slip, uncertainty: DesignUncertainty, ahead: float
+    ) -> float:
+        """Return what the design's uncertainty adds to the variance of g, in units of r T."""
 
-    def _excess_of(self, design: JointDesign, ahead: float) -> float:
-        """Return g in units of r T for another design, at an angle ahead in rad."""
-        slip = taut_slip(design, self._tensions, self._load).facing(self._slip.side)
-        return float(slip.value(ahead))
+        def excess(design: JointDesign) -> float:
+            return float(taut_slip(design, self._tensions, self._load, slip.side).value(ahead))
+
+        names = uncertainty.parameters
+        slopes = excess_by_design(excess, self._design, names, slip.total)
+        return uncertainty.variance(dict(zip(names, slopes, strict=True)))
 
     @kept
     def _drawn(self) -> DrawnSlipAngles:

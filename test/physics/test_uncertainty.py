@@ -7,11 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from brute import excess, random_case
+from brute import Case, excess, random_case
 from designs import PRELIMINARY
 
 from tendon_statics import (
     DesignUncertainty,
+    Load,
     Regime,
     TensionError,
     slip_angle_distribution,
@@ -21,7 +22,7 @@ from tendon_statics import (
 from tendon_statics.physics.batch import REGIME_CODES
 from tendon_statics.physics.uncertainty import distribution_about
 
-REGIMES = (Regime.EQUILIBRIUM, Regime.HELD, Regime.DRIVEN_TO_STOP)
+REGIMES = (Regime.EQUILIBRIUM, Regime.HELD, Regime.DRIVEN_TO_STOP, Regime.SLACK)
 DRAWS = 20_000
 
 
@@ -65,9 +66,87 @@ def test_probabilities_and_intervals_are_those_of_draws():
             assert_interval(found, rooted, case)
             intervals += 1
         closed += found.is_closed_form
-    assert closed > 30
-    assert closed < 60
+    assert closed == 60
     assert intervals > 15
+
+
+def with_weaker(case, weaker):
+    """Return a case with the same sum of tensions and side, and another weaker cable."""
+    total = case.tension_l + case.tension_s
+    if case.tension_l < case.tension_s:
+        return case._replace(tension_l=weaker, tension_s=total - weaker)
+    return case._replace(tension_l=total - weaker, tension_s=weaker)
+
+
+@pytest.mark.parametrize('kind', ['equal', 'slack'])
+def test_next_to_equal_tensions_and_to_a_slack_cable_it_is_in_closed_form_too(kind):
+    draw = random.Random(kind)
+    intervals = doubtful = 0
+    for seed, (case, stddev) in enumerate(noisy_cases(120, seed=31)):
+        far = draw.uniform(0.0, 5.0) * stddev
+        total = case.tension_l + case.tension_s
+        case = with_weaker(case, far if kind == 'slack' else 0.5 * (total - far))
+        found = slip_angle_distribution(
+            case.design, case.tension_l, case.tension_s, tension_stddev=stddev, load=case.load
+        )
+        if not found.is_closed_form:
+            continue
+        assert sum(found.probabilities.values()) == pytest.approx(1.0, abs=1e-9)
+        answers = drawn(case, stddev, seed)
+        rooted = assert_probabilities(found, answers, case)
+        doubtful += max(found.probabilities.values()) < 0.98
+        if len(rooted) > 0.1 * DRAWS:
+            assert_interval(found, rooted, case)
+            intervals += 1
+    assert doubtful > 10
+    assert intervals > 10
+
+
+def test_next_to_equal_tensions_each_side_has_its_own_angles():
+    """Against draws, on both sides of 0."""
+    slippery = replace(PRELIMINARY, friction_coefficient=0.02)
+    case = Case(slippery, Load(), 1.0, 1.01)
+    found = slip_angle_distribution(slippery, 1.0, 1.01, tension_stddev=0.015)
+    assert found.is_closed_form
+    angles = drawn(case, 0.015, seed=2)
+    at_root = angles.regime == REGIME_CODES[Regime.EQUILIBRIUM]
+    driven = angles.regime == REGIME_CODES[Regime.DRIVEN_TO_STOP]
+    for side in (1.0, -1.0):
+        of_side = side * (angles.tension_s - angles.tension_l) > 0.0
+        for angle in (0.05, 0.15, 0.4):
+            before = driven | (at_root & (np.abs(angles.bend_angle) <= angle))
+            share = np.mean(before[of_side])
+            assert found.cdf(side * angle) == pytest.approx(share, abs=0.02)
+    assert found.cdf(0.0) == pytest.approx(
+        np.mean(driven[angles.tension_s > angles.tension_l]), abs=0.02
+    )
+    assert found.cdf(found.quantile(0.7)) == pytest.approx(0.7, abs=1e-4)
+    low, high = found.interval(0.9)
+    assert low < 0.0 < high
+
+
+def test_quantiles_next_to_a_slack_cable_leave_out_what_is_slack():
+    found = slip_angle_distribution(PRELIMINARY, 0.02, 1.0, tension_stddev=0.01)
+    assert found.is_closed_form
+    assert found.probability('slack') == pytest.approx(0.0228, abs=1e-4)
+    whole = found.cdf(PRELIMINARY.max_bend_angle) + found.probability('held')
+    assert whole + found.probability('slack') == pytest.approx(1.0)
+
+
+def test_where_noise_both_turns_and_slackens_the_cables_it_is_drawn():
+    case = replace(PRELIMINARY, friction_coefficient=0.02)
+    found = slip_angle_distribution(case, 1.0, 1.001, tension_stddev=0.3)
+    assert not found.is_closed_form
+    answers = drawn(Case(case, Load(), 1.0, 1.001), 0.3, seed=4)
+    assert_probabilities(found, answers, case)
+    for share in (0.97, 0.99):
+        assert found.cdf(found.quantile(share)) == pytest.approx(share, abs=1e-3)
+
+
+def side_is_sure(case, stddev):
+    """Whether noise changes neither which cable is the stronger nor that both are taut."""
+    weak, strong = sorted((case.tension_l, case.tension_s))
+    return min(weak, (strong - weak) / math.sqrt(2.0)) > 5.0 * stddev
 
 
 def turns(case):
@@ -82,12 +161,12 @@ def test_where_the_slip_function_turns_the_root_nearest_to_0_counts():
     """In closed form too, of units that turn within the noise of slipping somewhere."""
     intervals = tried = 0
     for seed, (case, stddev) in enumerate(noisy_cases(300, seed=9)):
-        if not turns(case):
+        if not turns(case) or not side_is_sure(case, stddev):
             continue
         found = slip_angle_distribution(
             case.design, case.tension_l, case.tension_s, tension_stddev=stddev, load=case.load
         )
-        if not found.is_closed_form or max(found.probabilities.values()) > 0.99:
+        if max(found.probabilities.values()) > 0.99:
             continue
         tried += 1
         answers = drawn(case, stddev, seed)
@@ -101,6 +180,28 @@ def test_where_the_slip_function_turns_the_root_nearest_to_0_counts():
                 assert before == pytest.approx(share, abs=0.03), case
     assert tried >= 5
     assert intervals >= 2
+
+
+def test_a_slip_function_that_turns_next_to_0_is_followed_there():
+    """Between looks far apart its turn was taken for part of a rise, 0.023 in probability."""
+    design = replace(
+        PRELIMINARY,
+        ball_radius=0.014544,
+        cable_offset=0.0054077,
+        com_distance=-0.03547,
+        mass=0.050891,
+        friction_coefficient=0.17746,
+        contact_start_angle=0.92541,
+        contact_end_angle=1.34986,
+        max_bend_angle=1.0407,
+    )
+    load = Load((0.99135, 0.0, -0.13127), (-0.91168, -0.11574), 0.0095745)
+    case, stddev = Case(design, load, 2.74313, 4.85459), 0.037989
+    assert turns(case)
+    found = slip_angle_distribution(design, *case[2:], tension_stddev=stddev, load=load)
+    answers = drawn(case, stddev, seed=3)
+    share = np.mean(answers.regime == REGIME_CODES[Regime.EQUILIBRIUM])
+    assert found.probability('equilibrium') == pytest.approx(share, abs=0.01)
 
 
 def test_the_published_pair():
@@ -124,24 +225,26 @@ def test_a_quantile_within_another_regime_is_none():
     assert held.interval() is None
 
 
-def test_next_to_equal_tensions_both_sides_count():
-    case = replace(PRELIMINARY, friction_coefficient=0.02)
-    found = slip_angle_distribution(case, 1.0, 1.001, tension_stddev=0.02)
-    assert not found.is_closed_form
-    assert found.probability('driven_to_stop') > 0.3
-
-
 @pytest.mark.parametrize('law', ['merged', 'friction_circle', 'elastic_seat'])
 def test_the_designs_own_uncertainty_counts(law):
     """Against draws of designs, solved one by one."""
     design = replace(PRELIMINARY, contact_law=law, friction_coefficient=0.3)
-    tension_s = 1.01 * _slip_tension(design)
+    assert_as_of_drawn_designs(design, 1.01 * _slip_tension(design), 0.01)
+
+
+def test_the_designs_own_uncertainty_counts_next_to_equal_tensions_too():
+    design = replace(PRELIMINARY, friction_coefficient=0.02)
+    assert_as_of_drawn_designs(design, 1.003, 0.005)
+
+
+def assert_as_of_drawn_designs(design, tension_s, friction_stddev):
     names = ('friction_coefficient', 'cable_offset')
-    deviations = np.array([0.01, 1e-4])
+    deviations = np.array([friction_stddev, 1e-4])
     uncertainty = DesignUncertainty(names, tuple(map(tuple, np.diag(deviations**2).tolist())))
     found = slip_angle_distribution(
         design, 1.0, tension_s, tension_stddev=0.005, design_covariance=uncertainty
     )
+    assert found.is_closed_form
     noise = np.random.default_rng(8)
     regimes = []
     for _ in range(4000):
