@@ -13,15 +13,16 @@ import math
 import secrets
 import sys
 from collections.abc import Callable
+from statistics import NormalDist
 from typing import Any, NamedTuple
 
 import numpy as np
 from measure_filter.readings import readings
-from measure_filter.sessions import PROGRAMS, UNITS, Session, session, slip_tension
+from measure_filter.sessions import PROGRAMS, UNITS, Floats, Session, session, slip_tension
 
 from tendon_statics import JointDesign, TensionError
 from tendon_statics.command_line.tables import markdown_table
-from tendon_statics.physics.filter.consistency import SLIPS, Consistency
+from tendon_statics.physics.filter.consistency import SLIPS, STATISTICS, Consistency
 from tendon_statics.physics.filter.scores import MOST, Boundary, Score
 
 ALARM = 1e-9
@@ -36,8 +37,11 @@ DEVIATIONS = 3.0
 LEVELS = (2.0, 3.0, 3.5)
 """Scores whose exceedance is compared with that of a normal distribution"""
 
-TILTS = (1.0, 2.0, 3.7)
-"""λ of Chernoff's bound of a sum of scores; that of ten slips and of three are 2 and 3.7"""
+COUNTS = range(3, SLIPS + 1)
+"""How many scores may add up to an alarm, as each counts `MOST` at the most"""
+
+TILTS = np.linspace(0.2, 12.0, 60)
+"""λ of Chernoff's bound of a sum of scores"""
 
 
 class Fault(NamedTuple):
@@ -219,14 +223,27 @@ def _print_right(runs: list[Run]) -> None:
             for level in LEVELS
         )
         print(f'{name}: {shares}; largest {np.abs(scores).max():.1f}.')
-        counted = np.clip(scores, -MOST, MOST)
-        worst = [
-            max(np.mean(np.exp(sign * tilt * counted)) for sign in (-1.0, 1.0))
-            / math.exp(0.5 * tilt**2)
-            for tilt in TILTS
-        ]
-        ratios = [f'{one:.2f} at λ = {tilt:g}' for tilt, one in zip(TILTS, worst, strict=True)]
-        print(f'{name}: mean exp(±λ score) / exp(λ²/2) is {", ".join(ratios)}.')
+        print(
+            f'{name}: at {24.0 * len(slips) / hours:.0f} slips a day at most '
+            f'{24.0 * len(scores) / hours * 2.0 * likeliest_alarm(scores):.1e} false alarms a day.'
+        )
+
+
+def likeliest_alarm(scores: Floats) -> float:
+    """Bound the probability that the newest scores add up to an alarm.
+
+    Chernoff's: P(|Σ| ≥ z √n) ≤ 2 min over λ of M(λ)ⁿ exp(−λ z √n), if scores are independent.
+    M is the mean of exp(λ score) over those seen, for the worse side; the worst n counts.
+    """
+    counted = np.clip(scores, -MOST, MOST)
+    both = np.array([TILTS, -TILTS])
+    generating = np.exp(both[..., None] * counted).mean(axis=-1).max(axis=0)
+    sum_at_alarm = -NormalDist().inv_cdf(0.5 * ALARM / STATISTICS)
+    exponents = [
+        np.min(count * np.log(generating) - TILTS * sum_at_alarm * math.sqrt(count))
+        for count in COUNTS
+    ]
+    return 2.0 * math.exp(max(exponents))
 
 
 if __name__ == '__main__':

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from measure_consistency import moved
 from measure_filter.readings import readings
 from measure_filter.sessions import UNITS, session
 
@@ -103,6 +104,21 @@ def test_neither_slides_that_fade_out_nor_fast_steps_raise_an_alarm(unit, progra
 def test_a_wrong_coefficient_of_friction_is_found_within_ten_slips(unit, factor):
     drawn = strokes(unit, rate=500.0)
     assert least_consistency(drawn, with_friction(drawn.design, factor)) < ALARM
+
+
+@pytest.mark.parametrize('seed', range(2, 5))
+@pytest.mark.parametrize('shift', [0.0135, -0.0135])
+def test_a_boundary_three_deviations_off_is_found_within_ten_slips_of_a_unit_that_jumps(
+    shift, seed
+):
+    design, weak = UNITS['preliminary']
+    wrong = moved(design, weak, shift, lambda factor: with_friction(design, factor))
+    assert least_consistency(strokes('preliminary', 16.0, seed, rate=500.0), wrong) < ALARM
+
+
+def test_cycles_that_slip_alike_next_to_their_crest_raise_no_alarm():
+    drawn = strokes('preliminary', 14.0, 0, 'cycles', rate=500.0)
+    assert least_consistency(drawn, slips=99) > 1e-4
 
 
 @pytest.mark.parametrize('factor', [0.97, 1.03])

@@ -63,3 +63,20 @@ def test_the_end_of_a_ramp_is_not_seen_beyond_where_it_ends(slope):
         _, value, error = estimate(signal, age, seed)
         beyond.append((value - 2.8 * error).max())
     assert np.mean(np.array(beyond) > 0.0) < 0.3
+
+
+def test_a_parabola_is_itself():
+    time = np.arange(300.0)
+    signal = 1.0 + 0.3 * time - 0.002 * time**2
+    for age in (75, 10):
+        found = Windows(300, np.array([age])).estimate(signal[None], 1e-9)
+        assert found.value[0, 0] == pytest.approx(signal[299 - age], abs=1e-9)
+
+
+def test_crests_are_not_seen_higher_than_they_are():
+    """Where the mean of a window after a place that rises and falls by as much misleads."""
+    time = np.arange(0.0, 60.0, 0.002)
+    height = 113.0 * NOISE
+    truth, value, error = estimate(height * np.sin(2.0 * np.pi * time / 2.34), 75)
+    near = (truth > 0.9 * height) & (truth < 0.99 * height)
+    assert np.mean(np.abs(value - truth)[near] > 2.0 * error[near]) < 0.05

@@ -213,28 +213,36 @@ class Consistency:
             for one in samples
         ]
         # A unit that jumps is seen to leave; of one that slides away it is not sure when it left.
-        first = left.index(True) if True in left else len(samples) - 1
+        is_seen = True in left
+        first = left.index(True) if is_seen else len(samples) - 1
         earlier = [*self._hardest.values(), *samples[:first]]
         pushes = [self._boundary.push(one.reading, rest.mean, side)[0] for one in earlier]
         slide = Slide(self._boundary, side, rest.mean, max(pushes, default=-math.inf))
         for one in samples[first:]:
             slide.take(one.reading)
-        seen = samples[first].reading
-        before = [one.reading for one in samples[:first] if one.is_measured]
-        onset = self._beyond(before[-1:], side) if before and True in left else Score()
+        resting = [index for index in range(first) if samples[index].is_measured]
+        last = samples[resting[-1]].reading if resting and is_seen else None
+        if last is not None and self._boundary.jumps(last, rest.mean, side):
+            between = samples[resting[-1] + 1 : first + 1]
+            onset = self._of_jump(last, [one.reading for one in between], rest, side)
+            return _Slipping(side, onset, slide)
+        onset = Score() if last is None else self._beyond([last], side)
         if not onset.value > 0.0:
-            onset = max(
-                self._score_at(one.reading, rest, side) for one in (*earlier, samples[first])
-            )
+            tried = [self._score_at(one.reading, rest, side) for one in (*earlier, samples[first])]
+            onset = max(tried)
             onset = onset._replace(value=min(onset.value, 0.0))
-        if before:
-            # It slipped at a drive between those of two samples, and nothing tells at which.
-            step = (
-                self._score_at(seen, rest, side).force
-                - self._score_at(before[-1], rest, side).force
-            )
-            onset = onset._replace(deviation=math.hypot(onset.deviation, step / math.sqrt(12.0)))
         return _Slipping(side, onset, slide)
+
+    def _of_jump(
+        self, last: Reading, between: Sequence[Reading], rest: Group, side: float
+    ) -> Score:
+        """Judge where a unit jumped: at a drive between that of its last reading and the hardest.
+
+        Nothing tells at which of them.
+        """
+        least = self._score_at(last, rest, side)
+        most = max(self._score_at(one, rest, side) for one in between)
+        return least.up_to(most.force)
 
     def _score_at(self, reading: Reading, place: Group, side: float) -> Score:
         """How far beyond the boundary a unit at a place is at the tensions of a reading."""

@@ -12,7 +12,7 @@ from ..design_gradients import excess_by_design
 from ..design_uncertainty import DesignUncertainty
 from ..gradients import slip_by_tensions
 from ..load import Load
-from ..slip import Probe, Slip
+from ..slip import Probe, Slip, SlipPoint
 from ..tensions import Tensions, taut_slip
 
 MOVED = 6.0
@@ -49,6 +49,13 @@ class Score(NamedTuple):
     def force(self) -> float:
         """The score in N of the tension of the cable ahead."""
         return self.value * self.deviation
+
+    def up_to(self, force: float) -> Score:
+        """Return the score of something that is anywhere from here to a force in N, as likely."""
+        step = force - self.force
+        deviation = math.hypot(self.deviation, step / math.sqrt(12.0))
+        shared = self.shared * (self.deviation / deviation) ** 2
+        return Score((self.force + 0.5 * step) / deviation, shared, deviation)
 
 
 class Group(NamedTuple):
@@ -128,11 +135,14 @@ class Boundary:
         total = sum(reading.tensions)
         return found.value * total, found.noise * total
 
+    def jumps(self, reading: Reading, place: float, side: float) -> bool:
+        """Whether a unit that slips to a side does not stop at once: what drives it grows."""
+        _, point = self._at(reading, place, side)
+        return bool(point.slope > 0.0)
+
     def excess(self, reading: Reading, angle: float, error: float, side: float) -> Excess:
         """Return the slip function at an angle in rad, which has an error."""
-        stop = self.design.max_bend_angle
-        slip = taut_slip(self.design, reading.tensions, reading.load, side)
-        point = slip.at(min(max(side * angle, -stop), stop))
+        slip, point = self._at(reading, angle, side)
         by_behind, by_ahead = slip_by_tensions(slip, point, self.design.relative_lever)
         of_behind, of_ahead = reading.errors[:: int(side)]
         return Excess(
@@ -142,6 +152,12 @@ class Boundary:
             (point.slope * error) ** 2,
             abs(by_ahead),
         )
+
+    def _at(self, reading: Reading, angle: float, side: float) -> tuple[Slip, SlipPoint]:
+        """Return the slip function to a side, and what it is at an angle in rad."""
+        stop = self.design.max_bend_angle
+        slip = taut_slip(self.design, reading.tensions, reading.load, side)
+        return slip, slip.at(min(max(side * angle, -stop), stop))
 
     def score(self, found: Excess, reading: Reading, angle: float, side: float) -> Score:
         """Return an excess in deviations; reading and angle are where the design's own is seen."""

@@ -1,16 +1,17 @@
 """The value of a signal behind noisy samples, from windows as wide as the signal lets them be.
 
-At a place in the signal there are windows of five kinds: around it, before it and after it, with
-the mean of the samples for a signal at rest, and before and after with a straight line for one
-that moves. Wider ones have the smaller standard error, and are wrong where the signal bends within
-them. So of each kind the widest is taken with which the confidence intervals of all narrower ones
-still have a point in common (the rule of intersecting confidence intervals: Goldenshluger and
-Nemirovski, 1997; Katkovnik, 1999, with windows to one side). By that rule bias may grow to twice
-the standard error before it is noticed. So the estimate is the window one size narrower, where a
-bias is a quarter of that or a half; and its error is the standard error together with the distance
-between the two, which tells of the bias that is left. Of the five kinds the one with the smallest
-error is taken. Next to a corner that is a window that ends there: the mean of a rest right after a
-step is as good as in its midst.
+At a place in the signal there are windows of six kinds: around it, before it and after it, with
+the mean of the samples for a signal at rest; before and after it with a straight line for one that
+moves; and around it with a parabola for one that turns. Wider ones have the smaller standard
+error, and are wrong where the signal bends within them. So of each kind the widest is taken with
+which the confidence intervals of all narrower ones still have a point in common (the rule of
+intersecting confidence intervals: Goldenshluger and Nemirovski, 1997; Katkovnik, 1999, with
+windows to one side). By that rule bias may grow to twice the standard error before it is noticed.
+So the estimate is the window one size narrower, where a bias is a quarter of that or a half; and
+its error is the standard error together with the distance between the two, which tells of the bias
+that is left. Of the six kinds the one with the smallest error is taken, with a handicap for
+windows to one side. Next to a corner that is a window that ends there: the mean of a rest right
+after a step is as good as in its midst.
 
 A line that comes up to a corner is believed for a little too long, since a few samples beyond it
 do not tell; and a unit would be carried along by a ramp that is seen to go on. But a signal does
@@ -48,9 +49,15 @@ is the least sure: a rest is not to be torn apart by what is far out once in a m
 SURE = 3.5
 """Standard errors by which a slope, or the difference of two windows, is one beyond doubt"""
 
-_AROUND, _MEANS, _LINES = 0, slice(1, 3), slice(3, 5)
-"""Kinds of windows: around, before, after, and lines before and after"""
-KINDS = 5
+HANDICAP = 2.0
+"""So many times as sure as one around a place a window to one side has to be. What bends within a
+window misleads it more, and next to a crest the mean of what rises and falls by as much agrees
+with those of narrower windows by chance"""
+
+_AROUND, _MEANS, _LINES, _PARABOLA = 0, slice(1, 3), slice(3, 5), 5
+"""Kinds of windows: around, before, after, lines before and after, and a parabola around"""
+KINDS = 6
+_HANDICAPS = np.array([1.0, HANDICAP, HANDICAP, HANDICAP, HANDICAP, 1.0])[:, None]
 _MEAN_KINDS, _LINE_KINDS = np.array([[1], [2]]), np.array([[3], [4]])
 
 
@@ -83,11 +90,12 @@ class Windows:
         full, half = sizes - 1, (sizes - 1) // 2
         nothing = np.zeros_like(full)
         # size, kind, place
-        left = np.stack([half, full, nothing, full, nothing], axis=1) + 0 * ages
-        right = np.stack([half, nothing, full, nothing, full], axis=1) + 0 * ages
+        left = np.stack([half, full, nothing, full, nothing, half], axis=1) + 0 * ages
+        right = np.stack([half, nothing, full, nothing, full, half], axis=1) + 0 * ages
         there = (left <= place) & (right <= ages)
         there[:, _AROUND] &= sizes % 2 == 1
         there[:, _LINES] &= sizes[..., None] >= 3
+        there[:, _PARABOLA] &= (sizes % 2 == 1) & (sizes >= 5)
         there[0] = True  # the sample itself
         left, right = np.where(there, left, 0), np.where(there, right, 0)
         first, end = place - left, place + right + 1
@@ -98,15 +106,21 @@ class Windows:
         offset = np.where(lined, place - middle, 0.0)
         spread = np.where(size > 1, size * (size * size - 1.0) / 12.0, 1.0)  # Σ (k − middle)²
         tilt = offset / spread
-        # A value takes so much of the sum over the window and of that of samples times numbers,
-        self._of_sums = np.array([1.0 / size - tilt * middle, tilt]).reshape(2, -1)
-        # and the slope of a line so much.
+        # A value takes so much of the sums over the window of samples, of samples times their
+        # numbers, and of samples times their numbers squared.
+        of_sums = np.array([1.0 / size - tilt * middle, tilt, 0.0 * tilt])
+        peak, bend = _parabola(size[:, _PARABOLA])
+        of_sums[:, :, _PARABOLA] = peak - bend * place**2, 2.0 * bend * place, -bend
+        self._of_sums = of_sums.reshape(3, 1, -1)
+        # The slope of a line takes so much of the first two.
         self._of_slope = np.where(lined, spread, 0.0).reshape(-1)  # 1 / (its standard error)²
         self._slope_of_sums = (
             np.where(lined, 1.0 / spread, 0.0) * np.array([-middle, 1.0 + 0.0 * middle])
         ).reshape(2, -1)
         self._ends = np.array([first.reshape(-1), end.reshape(-1)])
-        error = np.where(there, np.sqrt(1.0 / size + offset * tilt), np.inf)
+        variance = 1.0 / size + offset * tilt
+        variance[:, _PARABOLA] = peak
+        error = np.where(there, np.sqrt(variance), np.inf)
         self._half_width = (CONFIDENCES[:, None, None] * error).reshape(len(SIZES), -1)
         self._error = error.reshape(-1)
         self._numbers = np.arange(count)
@@ -143,15 +157,15 @@ class Windows:
         # takes elements: by numbers in the flat array, which is the fastest.
         signals, count = samples.shape
         base = samples[:, -1:]
-        sums = np.zeros((2, signals, count + 1))
+        sums = np.zeros((3, signals, count + 1))
         centred = sums[0, :, 1:]
         np.subtract(samples, base, out=centred)
         np.multiply(centred, self._numbers, out=sums[1, :, 1:])
+        np.multiply(sums[1, :, 1:], self._numbers, out=sums[2, :, 1:])
         np.add.accumulate(sums, axis=2, out=sums)
         at_ends = sums.take(self._ends, axis=2)
         within = at_ends[:, :, 1] - at_ends[:, :, 0]
-        values = within[0] * self._of_sums[0]
-        values += within[1] * self._of_sums[1]
+        values = np.add.reduce(within * self._of_sums, axis=0)
         # Of each kind, up to which size the intervals have a point in common.
         half_width = stddev * self._half_width
         of_sizes = values.reshape(signals, *half_width.shape)
@@ -180,7 +194,7 @@ class Windows:
         Parameters
         ----------
         within : ndarray
-            Sums over all windows, shape ``(2, signals, windows)``.
+            Sums over all windows, shape ``(3, signals, windows)``.
         taken, value, error : ndarray
             Of each kind at each place the window, and what it says, shape ``(signals, columns)``.
         stddev : float
@@ -189,19 +203,21 @@ class Windows:
         signals = len(value)
         shape = signals, KINDS, len(self._places)
         taken, value, error = taken.reshape(shape), value.reshape(shape), error.reshape(shape)
-        # Before and after the place, whichever of mean and line is the surer.
-        lined = error[:, _LINES] < error[:, _MEANS]
-        surest: NDArray[np.intp] = error.argmin(axis=1)
-        if not np.count_nonzero(lined):
-            return surest  # Means have no slope, so that it bends nowhere.
-        sure = np.minimum(error[:, _LINES], error[:, _MEANS])
-        says = np.where(lined, value[:, _LINES], value[:, _MEANS])
         lines = taken[:, _LINES]
         series = within.shape[2] * np.arange(signals)[:, None, None]
-        parts = within.reshape(2, -1).take(lines + series, axis=1)
+        parts = within.reshape(3, -1)[:2].take(lines + series, axis=1)
         parts *= self._slope_of_sums.take(lines, axis=1)
-        slope = (parts[0] + parts[1]) * lined
+        slope = parts[0] + parts[1]
         steep = slope * slope * self._of_slope.take(lines) > (SURE * stddev) ** 2
+        # A rest needs no handicap, where any window that noise has left whole is as good.
+        moves = steep[:, :1] | steep[:, 1:]
+        surest = np.where(moves, error * _HANDICAPS, error).argmin(axis=1)
+        # Before and after the place, whichever of mean and line is the surer.
+        lined = error[:, _LINES] < error[:, _MEANS]
+        sure = np.minimum(error[:, _LINES], error[:, _MEANS])
+        says = np.where(lined, value[:, _LINES], value[:, _MEANS])
+        slope *= lined
+        steep &= lined
         change, bend = says[:, 1] - says[:, 0], slope[:, 1] - slope[:, 0]
         is_before = (change > 0.0) == (bend < 0.0)
         doubt, change = (sure * sure).sum(axis=1), change * change
@@ -213,6 +229,17 @@ class Windows:
         kinds = np.where(lined, _LINE_KINDS, _MEAN_KINDS)
         met = np.where(is_before, kinds[:, 0], kinds[:, 1])
         return np.where(corner, met, surest)
+
+
+def _parabola(size: Floats) -> tuple[Floats, Floats]:
+    """Return a and b of the weights a − b k² that give a parabola's value in the middle, k = 0.
+
+    Of windows of at least five samples (Savitzky and Golay, 1964); the others are the sample
+    itself. The variance of the value is a.
+    """
+    scale = np.where(size >= 5.0, size * (size * size - 4.0), np.inf)
+    a = np.where(size >= 5.0, 0.75 * (3.0 * size * size - 7.0) / scale, 1.0)
+    return a, 15.0 / scale
 
 
 class SampleBuffer:
