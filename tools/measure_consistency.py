@@ -149,10 +149,14 @@ def main() -> int:
     parser.add_argument('--rate', type=float, default=500.0, metavar='HZ')
     parser.add_argument('--unit', choices=UNITS, help='default: all')
     parser.add_argument('--right', action='store_true', help='only the right model')
+    parser.add_argument('--program', choices=('strokes', *PROGRAMS), help='of the right model')
     parser.add_argument('--seed', type=int, default=secrets.randbelow(2**31), metavar='N')
     options = parser.parse_args()
     random = np.random.default_rng(options.seed)
     rows, right = [], []
+    programs = ['strokes', *(PROGRAMS if options.right else ())]
+    if options.program:
+        programs = [options.program]
 
     def drawn(unit: str, program: str) -> Session:
         print('.', end='', file=sys.stderr, flush=True)
@@ -160,10 +164,9 @@ def main() -> int:
 
     for unit in [options.unit] if options.unit else UNITS:
         design, _ = UNITS[unit]
-        programs = itertools.cycle(('strokes', *PROGRAMS) if options.right else ('strokes',))
         runs = [
             run(drawn(unit, program), Fault(design), random)
-            for _, program in zip(range(options.sessions), programs, strict=False)
+            for _, program in zip(range(options.sessions), itertools.cycle(programs), strict=False)
         ]
         right += runs
         deviation = deviation_of(runs)

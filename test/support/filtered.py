@@ -11,8 +11,8 @@ from stamps import stamp
 NOISE = 0.02
 """N, of each tension"""
 
-LAG = 0.05
-"""s"""
+LAG = 0.5
+"""s; a busy machine leaves longer gaps than 0.05 s, and nothing before a gap of a lag stays"""
 
 FILTERING = (
     *('-p', 'estimation:=filtering', '-p', f'tension_stddev:={NOISE}'),

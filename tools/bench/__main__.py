@@ -16,10 +16,10 @@ from pathlib import Path
 
 from tendon_statics.command_line.tables import markdown_table
 
-from . import arm, arm_node, batch, messages, node, solver, start_up
+from . import arm, arm_node, batch, filtering, messages, node, solver, start_up
 from .rows import Row
 
-GROUPS = (solver, batch, arm, start_up, messages, node, arm_node)
+GROUPS = (solver, batch, filtering, arm, start_up, messages, node, arm_node)
 """Each has a function `rows` that measures a group of rows"""
 
 SHARES = {
