@@ -17,6 +17,9 @@ from ..node.inputs.waiting_messages import waiting_messages
 FITS_ALL = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 """Goes with every publisher, and never holds one up"""
 
+RELIABLE = QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)
+"""Loses nothing of publishers that see to that, and does not go with others"""
+
 LATCHED = QoSProfile(
     depth=1,
     reliability=ReliabilityPolicy.RELIABLE,  # else the middleware sends nothing from before
@@ -25,7 +28,7 @@ LATCHED = QoSProfile(
 """Goes with publishers that keep what they said, and with no others"""
 
 LOOK_PERIOD = 1.0
-"""Seconds between two looks at whether publishers keep what they said"""
+"""Seconds between two looks at how publishers say it"""
 
 
 class _LeftAlone(CallbackGroup):
@@ -91,10 +94,12 @@ class KeptMessages:
         return [message for message, _ in waiting_messages(self._subscription, 1)]
 
     def _fit(self) -> None:
-        """Ask for what is kept once all who publish keep it; a publisher may come later."""
-        found = self._node.get_publishers_info_by_topic(self._topic)
-        keeps = [info.qos_profile.durability is LATCHED.durability for info in found]
-        qos = LATCHED if keeps and all(keeps) else FITS_ALL
+        """Ask for as much as all who publish give, since it is said once; one may come later."""
+        qos = FITS_ALL
+        given = [info.qos_profile for info in self._node.get_publishers_info_by_topic(self._topic)]
+        if given and all(one.reliability is RELIABLE.reliability for one in given):
+            is_kept = all(one.durability is LATCHED.durability for one in given)
+            qos = LATCHED if is_kept else RELIABLE
         if qos is not self._qos:
             self._qos = qos
             self.close()

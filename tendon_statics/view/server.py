@@ -74,6 +74,10 @@ class PageServer:
             extra_websocket_origins=list(hosts(self.port)),
             unused_session_lifetime_milliseconds=LINGER,
             check_unused_sessions_milliseconds=LOOK_FOR_UNUSED,
+            # No pings. One to a tab that has just been closed takes its session away before bokeh
+            # has read what the tab still sent, and each of that is an error; and a page that is
+            # drawn many times a second needs nothing else to keep its connection.
+            keep_alive_milliseconds=0,
         )
         http = HTTPServer(application)
         http.add_sockets(sockets)

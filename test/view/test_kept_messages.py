@@ -5,7 +5,7 @@ import itertools
 import pytest
 from list_entities import alone
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from ros_programs import wait_for
 from std_msgs.msg import String
 
@@ -66,3 +66,20 @@ def test_who_keeps_nothing_is_heard_too(node, kept, monkeypatch):
         return bool(kept.take())
 
     wait_for('what is not kept', is_heard)
+
+
+@pytest.mark.parametrize(
+    'reliability', [ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT]
+)
+def test_what_is_said_once_is_asked_for_as_reliably_as_it_is_given(node, monkeypatch, reliability):
+    monkeypatch.setattr(newest_messages, 'LOOK_PERIOD', 0.0)
+    node.create_publisher(String, 'regime', QoSProfile(depth=1, reliability=reliability))
+    kept = KeptMessages(node, String, 'regime')
+
+    def asked():
+        kept.take()
+        (found,) = node.get_subscriptions_info_by_topic('regime')
+        return found.qos_profile.reliability
+
+    wait_for('the subscription that fits', lambda: asked() is reliability)
+    kept.close()
