@@ -109,7 +109,9 @@ class FirstRoot:
 def _from_turn(low: Knot, high: Knot) -> float:
     """Where a parabola through two knots is zero that turns at the flatter one."""
     turn, other = (low, high) if abs(low[2]) < abs(high[2]) else (high, low)
-    return turn[0] + (other[0] - turn[0]) * math.sqrt(turn[1] / (turn[1] - other[1]))
+    drop = turn[1] - other[1]
+    share = min(max(turn[1] / drop, 0.0), 1.0) if drop else 0.0
+    return turn[0] + (other[0] - turn[0]) * math.sqrt(share)
 
 
 def _score_of(probability: float) -> float:

@@ -24,7 +24,7 @@ from .turns import turning_points
 FINE = 0.02
 """Standard deviations of g to which it is followed where it turns"""
 
-ROUNDING = 1e-15
+ROUNDING = 1e-12
 """Probability that may be rounding"""
 
 RARE = 5e-3
@@ -144,6 +144,7 @@ class NoisySlip:
         by_sum = slip.share * slip.law.by_share(state) - state[0]
         deviation = SQRT_TWO * self._stddev * math.sqrt(by_sum * by_sum + lever * lever)
         if self._of_design is not None:
-            of_design = slip.total * math.sqrt(self._of_design(probe[0]))
+            # Of a covariance without an inverse, rounding may leave less than nothing.
+            of_design = slip.total * math.sqrt(max(self._of_design(probe[0]), 0.0))
             deviation = math.hypot(deviation, of_design)
         return deviation, by_sum - lever, by_sum + lever

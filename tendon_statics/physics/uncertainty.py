@@ -48,8 +48,8 @@ def slip_angle_distribution(
 
     In closed form, but where noise may change two of these: which cable is the stronger, whether
     the weaker is taut, and whether the joint is seated; or, with the paper's law, the last of
-    them. There it is from `DRAWS` draws through `solve_batch`, which takes a hundred times as
-    long. `SlipAngleDistribution.is_closed_form` tells.
+    them. There it is from `DRAWS` draws through `solve_batch`, which takes hundreds of solves'
+    time. `SlipAngleDistribution.is_closed_form` tells.
 
     Parameters
     ----------
@@ -195,7 +195,7 @@ class SlipAngleDistribution:
         for noisy in self._sides:
             ahead: float = noisy.side * angle
             if ahead >= 0.0:
-                return self._of_side(noisy) * noisy.cdf(ahead)
+                return min(self._of_side(noisy) * noisy.cdf(ahead), 1.0)
         return 0.0
 
     def quantile(self, q: float) -> float | None:

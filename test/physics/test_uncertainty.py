@@ -316,3 +316,26 @@ def test_what_is_known_about_an_equilibrium_is_what_is_known_of_its_tensions():
         found = distribution_about(solve(*given, case.load), stddev)
         assert found.interval(0.9) == of_tensions.interval(0.9)
         assert found.probabilities == of_tensions.probabilities
+
+
+def test_a_covariance_without_an_inverse_is_one():
+    """Of mass and gravity, whose product is known but for rounding: g hardly varies with them."""
+    design = replace(PRELIMINARY, mass=0.01)
+    slope = design.gravity / design.mass
+    exact = slip_angle_distribution(design, 1.0, 2.0, tension_stddev=0.01)
+    for correlation in (-1.0, -1.0 - 1e-10, -1.0 - 1e-9):
+        both = correlation * 1e-8 * slope
+        known = DesignUncertainty(('mass', 'gravity'), ((1e-8, both), (both, 1e-8 * slope**2)))
+        found = slip_angle_distribution(
+            design, 1.0, 2.0, tension_stddev=0.01, design_covariance=known
+        )
+        assert found.probabilities == pytest.approx(exact.probabilities, abs=1e-6)
+
+
+def test_an_equilibrium_that_is_all_but_impossible_has_no_interval():
+    for case, stddev in noisy_cases(300, seed=21):
+        found = slip_angle_distribution(
+            case.design, case.tension_l, case.tension_s, tension_stddev=stddev, load=case.load
+        )
+        if found.is_closed_form and found.probability('equilibrium') < 1e-13:
+            assert found.interval(0.999) is None
