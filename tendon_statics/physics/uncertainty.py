@@ -183,7 +183,8 @@ class SlipAngleDistribution:
         What is said of a negative angle is said of its mirror image: the slip angle towards
         cable l, up to that. The whole of one side is 1; 0 belongs to that of the stronger cable.
         Of the two other regimes ``driven_to_stop`` lies before 0 and ``held`` beyond the stop;
-        where the slip function falls all the way it is the other way round.
+        where the slip function falls all the way it is the other way round. Next to equal tensions
+        that of the unlikelier side is only right to about 0.01.
 
         Parameters
         ----------
