@@ -24,6 +24,7 @@ from .row import Row
 from .summary_table import summary_table
 
 SAMPLES = 'samples'
+LOCK = f'.{SAMPLES}.lock'
 KEY = 'recording='
 PART = 'part.parquet'
 SUMMARY = 'summary.parquet'
@@ -47,8 +48,8 @@ Columns = Mapping[str, NDArray[Any]]
 
 
 def is_dataset(folder: Path) -> bool:
-    """Whether a folder is the data set of an archive, finished or not."""
-    return (folder / SAMPLES).is_dir() and (folder / f'.{SAMPLES}.lock').is_file()
+    """Whether a folder is the data set of an archive, finished or only just begun."""
+    return (folder / LOCK).is_file()
 
 
 def short_enough(recording: str) -> str:
@@ -89,13 +90,15 @@ class Dataset:
         """
         needed('pyarrow', purpose=PURPOSE)
         try:
-            if self.folder.exists() and not is_dataset(self.folder) and any(self.folder.iterdir()):
+            self.folder.mkdir(parents=True, exist_ok=True)
+            # The lock is the first thing in a new folder, so that whatever is seen of one that
+            # another archive has just begun is known for its own.
+            if any(self.folder.iterdir()) and not is_dataset(self.folder):
                 raise OutputError(
                     f'{self.folder}: it has other things in it; name a new folder, or the data '
                     'set of an earlier archive'
                 )
-            self._samples.mkdir(parents=True, exist_ok=True)
-            with (self.folder / f'.{SAMPLES}.lock').open('w') as lock:
+            with (self.folder / LOCK).open('w') as lock:
                 try:
                     fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
                 except BlockingIOError:
@@ -103,6 +106,7 @@ class Dataset:
                         f'{self.folder}: another archive is being written there; wait for it or '
                         'name another folder'
                     ) from None
+                self._samples.mkdir(exist_ok=True)
                 # A worker of the killed run may end it now, or remove the folder: unlike a
                 # path's own, this `glob` passes over what is gone.
                 for half in glob.glob(f'{KEY}*/.*', root_dir=self._samples):  # noqa: PTH207

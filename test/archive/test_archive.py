@@ -492,6 +492,26 @@ def test_two_at_once_do_not_write_to_one_data_set(tmp_path):
         pass
 
 
+def test_of_two_begun_at_once_on_a_new_folder_the_second_is_told_of_the_first(
+    tmp_path, monkeypatch
+):
+    first, second = Dataset(tmp_path / 'out'), Dataset(tmp_path / 'out')
+    told = []
+
+    def mkdir(path, *of, mkdir=Path.mkdir, **options):
+        mkdir(path, *of, **options)
+        if path.name == 'samples':
+            with pytest.raises(OutputError) as error, second.held():
+                pass
+            told.append(str(error.value))
+
+    monkeypatch.setattr(Path, 'mkdir', mkdir)
+    with first.held():
+        pass
+    assert len(told) == 1
+    assert 'another archive is being written there' in told[0]
+
+
 def test_what_was_half_may_be_gone_before_it_is_removed(tmp_path, monkeypatch):
     output = Dataset(tmp_path / 'out')
     with output.held():
