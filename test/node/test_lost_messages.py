@@ -70,6 +70,19 @@ def test_two_publishers_that_take_turns_lose_nothing(lost):
     assert [lost.settle([OTHER]) for _ in range(3)] == [0, 0, 0]
 
 
+def test_what_waited_of_a_publisher_that_has_left_is_no_gap_in_the_other(lost):
+    """A busy node hears that it left before it takes its last messages."""
+    for number in range(1, 60):
+        noted(lost, 4000 + number, number)
+    lost.settle([ONE, OTHER])
+    noted(lost, 4060, 60)
+    lost.settle([ONE])
+    noted(lost, 4061, 61, 62, 4062, 4063)
+    assert [lost.settle([ONE]) for _ in range(3)] == [0, 0, 0]
+    noted(lost, 4066)
+    assert [lost.settle([ONE]) for _ in range(3)] == [0, 2, 0]
+
+
 def test_what_was_forgotten_is_not_lost(lost):
     noted(lost, 1, 5)
     lost.forget()
@@ -86,24 +99,31 @@ def test_without_numbers_nothing_is_counted_and_nothing_fails(lost):
 
 @given(
     st.lists(
-        st.lists(st.tuples(st.booleans(), st.integers(1, 50)), max_size=8),
+        st.lists(st.tuples(st.booleans(), st.just(1) | st.integers(1, 50)), max_size=8),
         min_size=1,
         max_size=8,
     ),
-    st.integers(1, 10_000),
-    st.integers(0, 9),
+    st.integers(-10, 10) | st.integers(-1000, 1000),
+    st.integers(0, 4),
+    st.integers(2, 4),
 )
 def test_of_a_publisher_alone_every_loss_counts_and_of_two_none_that_was_not(
-    periods, start, joins
+    periods, start, joins, stays
 ):
-    """Messages come or are lost, in periods between reports; a second publisher may join."""
+    """Messages come or are lost, in periods between reports; a second publisher may join.
+
+    It may leave, too, and then its last messages are taken after that is known.
+    """
+    leaves = joins + stays
     lost = LostMessages()
-    newest = {ONE: 0, OTHER: start}
+    newest = {ONE: 1000, OTHER: 1000 + start}
     lasts = dict.fromkeys(newest, None)
     really_lost = claimed = 0
+    was_known = False
     for index, messages in enumerate(periods):
         for is_others, step in messages:
-            who = OTHER if is_others and index >= joins else ONE
+            speaks = joins <= index < leaves or (was_known and index <= leaves + 1)
+            who = OTHER if is_others and speaks else ONE
             newest[who] += step
             if lasts[who] is not None:
                 really_lost += newest[who] - lasts[who] - 1
@@ -111,9 +131,12 @@ def test_of_a_publisher_alone_every_loss_counts_and_of_two_none_that_was_not(
             lost.note(newest[who])
         both_heard = lasts[OTHER] is not None
         # A new publisher is known with the next report at the latest.
-        claimed += lost.settle([ONE, OTHER] if both_heard and index > joins else [ONE])
+        is_there = both_heard and index < leaves
+        is_known = is_there and index > joins
+        was_known = was_known or is_known
+        claimed += lost.settle([ONE, OTHER] if is_known else [ONE])
     for _ in range(2):
-        claimed += lost.settle([ONE, OTHER] if both_heard else [ONE])
+        claimed += lost.settle([ONE, OTHER] if is_there else [ONE])
     if both_heard:
         assert claimed <= really_lost
     else:
