@@ -48,7 +48,10 @@ class BoundedFunction(Protocol):
         """Return the function at a place."""
 
     def slope_bounds(self, one: Probe, other: Probe) -> tuple[float, float]:
-        """Return bounds of the slope between two probes; NaN or infinite where there are none."""
+        """Return bounds of the slope between two probes, the other ahead of the one.
+
+        NaN or infinite where there are none.
+        """
 
 
 Bracket = tuple[Probe, Probe]

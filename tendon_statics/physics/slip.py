@@ -164,16 +164,15 @@ class Slip:
         return angle, moment - state[0], slope, cosine, sine, moment, wave, wave_slope, state
 
     def slope_bounds(self, one: Probe, other: Probe) -> tuple[Any, Any]:
-        """Return bounds of ∂g/∂θ in units of r T between two angles, at most half a turn apart."""
+        """Return bounds of ∂g/∂θ in units of r T between two angles ahead.
+
+        They are ascending, and at most half a turn apart.
+        """
         angle, _, _, _, _, _, wave, wave_slope, state = one
         other_angle, _, _, _, _, _, other_wave, other_wave_slope, other_state = other
+        amplitude = abs(self._of_cosine) + abs(self._of_sine)
         low, high = wave_bounds(
-            self.numbers,
-            wave,
-            -wave_slope,
-            other_wave,
-            -other_wave_slope,
-            abs(self._of_cosine) + abs(self._of_sine),
+            self.numbers, wave, -wave_slope, other_wave, -other_wave_slope, -amplitude, amplitude
         )
         least, greatest = self.law.slope_bounds(state, other_state, other_angle - angle)
         of_angle = self._of_angle
