@@ -119,10 +119,11 @@ def refine(function: BoundedFunction, bracket: Bracket) -> tuple[Probe, int]:
             ahead = math.nan
         else:
             ahead = cubic_zero(low, high)
-    root = min(max(_chord_zero(low, high), low[0]), high[0])
-    for end in (low, high):
-        if abs(end[0] - root) <= SAME:
-            return end, steps
+    root = _chord_zero(low, high)
+    if root <= low[0] + SAME:
+        return low, steps
+    if root >= high[0] - SAME:
+        return high, steps
     return function.probe(root), steps
 
 
