@@ -191,7 +191,7 @@ class Equilibrium(StateBasis):
         if root_count is None:
             by_tension = self.bend_angle_gradient
         return {
-            'regime': regime.value,
+            'regime': regime._value_,  # which `value` is a detour to
             'tension_l': tension_l,
             'tension_s': tension_s,
             'bend_angle': angle,
