@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from .design import JointDesign
 from .load import UPRIGHT, Load
-from .regime import Regime
+from .regime import AT_ROOT, AT_STOP, Regime
 from .roots import refine
 from .state import Equilibrium
-from .state_basis import AT_ROOT, AT_STOP
 from .tensions import check_tensions, taut_slip
 
 

@@ -13,8 +13,8 @@ from .forces import ContactForces, ForceRemainder
 from .gradients import TensionGradient, stddev_of
 from .kept import kept
 from .load import Load
-from .regime import Regime
-from .state_basis import AT_ROOT, AT_STOP, StateBasis
+from .regime import AT_ROOT, AT_STOP, Regime
+from .state_basis import StateBasis
 
 
 class Equilibrium(StateBasis):

@@ -9,15 +9,12 @@ from .gradients import TensionGradient
 from .kept import kept
 from .load import Load
 from .named import named
-from .regime import Regime
+from .regime import AT_ROOT, AT_STOP, Regime
 from .slip import Probe, Slip
 from .state_details import StateDetails, state_details
 from .tensions import Tensions, taut_slip
 
 State = TypeVar('State', bound='StateBasis')
-
-AT_ROOT, AT_STOP = Regime.EQUILIBRIUM, Regime.DRIVEN_TO_STOP
-"""Where friction is at its limit; an `Enum` takes longer to look a member up than to compare it"""
 
 
 class StateFields(NamedTuple):

@@ -125,7 +125,7 @@ class LoadedMergedLaw(LoadedLaw):
         other_capacity, _, other_sin_phi, other_cos_phi, other_steepness = other
         gain = share * capacity * steepness
         other_gain = share * other_capacity * other_steepness
-        # With sin φ = −1 the equation is T − N = |P| + μ N, with 1 it is T − N = ||P| − μ N|.
+        # Its ends: with sin φ = ∓1, T − N = ||P| ± μ N| and R = ||P| ± μ T|.
         friction, more, excess = self._friction, 1.0 + self._friction, self._excess
         at_least = excess / more
         at_most = numbers.choose(
