@@ -41,7 +41,7 @@ class ArrayFunction(Protocol):
     def slope_bounds(
         self, rows: Indices | slice, one: Lines, other: Lines
     ) -> tuple[Floats, Floats]:
-        """Return bounds of the slopes between two probes."""
+        """Return bounds of the slopes between two probes, ascending."""
 
 
 class Brackets(NamedTuple):

@@ -6,6 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 from .design import JointDesign
+from .named import named
 from .slip import Slip, SlipPoint
 
 
@@ -98,15 +99,14 @@ def contact_forces(
     left_across = opposed + dragged + share * point.sine
     across = side * total
     # From the unit's axis, and across it to the side of slip, to X and Z.
-    return (
-        ContactForces(
-            across * (pressed * sine + pushed * cosine),
-            total * (pressed * cosine - pushed * sine),
-            -across * (lifted * sine + dragged * cosine),
-            total * (lifted * cosine - dragged * sine),
-        ),
-        ForceRemainder(
-            across * (left_along * sine + left_across * cosine),
-            total * (left_along * cosine - left_across * sine),
-        ),
+    forces = (
+        across * (pressed * sine + pushed * cosine),
+        total * (pressed * cosine - pushed * sine),
+        -across * (lifted * sine + dragged * cosine),
+        total * (lifted * cosine - dragged * sine),
     )
+    remainder = (
+        across * (left_along * sine + left_across * cosine),
+        total * (left_along * cosine - left_across * sine),
+    )
+    return named(ContactForces, forces), named(ForceRemainder, remainder)

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from .contact.law import NormalSlopes
 from .load import DeadLoad
+from .named import named
 from .slip import Slip, SlipPoint
 
 
@@ -134,4 +135,4 @@ def of_sides(slip: Slip, by_cable: ByCable, sign: Any = 1.0) -> TensionGradient:
     """Derivatives by T_l and T_s; `sign` turns what is counted ahead into what is towards s."""
     behind, ahead = by_cable
     by_l, by_s = slip.numbers.swapped(slip.side < 0.0, behind, ahead)
-    return TensionGradient(sign * by_l, sign * by_s)
+    return named(TensionGradient, (sign * by_l, sign * by_s))

@@ -23,3 +23,8 @@ class Regime(str, Enum):
 
     def __str__(self) -> str:
         return self.value
+
+
+AT_ROOT, AT_STOP = Regime.EQUILIBRIUM, Regime.DRIVEN_TO_STOP
+"""Those in which friction is at its limit, for where microseconds count: to look a member up in an
+`Enum` takes twenty times as long as to compare it"""

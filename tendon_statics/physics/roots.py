@@ -27,6 +27,9 @@ USUAL_STEPS = 4
 MOST_HELPED_STEPS = 20
 """Steps after which each halves the bracket"""
 
+CLOSE = 1e-8
+"""Length in rad of a step so short that Newton's is exact as a rule; it takes less to work out"""
+
 OVERSHOOT = 0.45 * ANGLE_TOLERANCE
 """How far beyond the root the last step is aimed, so that rounding does not put it before"""
 
@@ -48,7 +51,10 @@ class BoundedFunction(Protocol):
         """Return the function at a place."""
 
     def slope_bounds(self, one: Probe, other: Probe) -> tuple[float, float]:
-        """Return bounds of the slope between two probes; NaN or infinite where there are none."""
+        """Return bounds of the slope between two probes, the other ahead of the one.
+
+        NaN or infinite where there are none.
+        """
 
 
 Bracket = tuple[Probe, Probe]
@@ -89,10 +95,11 @@ def brackets(function: BoundedFunction, low: Probe, high: Probe) -> list[Bracket
 def refine(function: BoundedFunction, bracket: Bracket) -> tuple[Probe, int]:
     """Narrow a bracket to `ANGLE_TOLERANCE`; return the root and the steps taken.
 
-    Steps go to where the cubic through both ends, with their slopes, is zero; where that does not
-    help the bracket is halved. The last step is aimed a little beyond the root, so that the
-    bracket closes from both ends. The root is where the chord over the last bracket is zero, which
-    makes it as exact as the function; it mostly is the last place but one.
+    Steps go to where the cubic through both ends, with their slopes, is zero, or are Newton's if
+    they are short; where that does not help the bracket is halved. The last step is aimed a little
+    beyond the root, so that the bracket closes from both ends. The root is where the chord over
+    the last bracket is zero, which makes it as exact as the function; it mostly is the last place
+    but one.
     """
     low, high = bracket
     rising = low[1] < 0.0 if low[1] else high[1] > 0.0
@@ -110,16 +117,19 @@ def refine(function: BoundedFunction, bracket: Bracket) -> tuple[Probe, int]:
             high, beyond = probe, -OVERSHOOT
         if steps >= MOST_HELPED_STEPS:
             ahead = math.nan
-        elif slope and -OVERSHOOT < (step := value / slope) < OVERSHOOT:
-            ahead += beyond - step
+        elif slope and -CLOSE < (step := value / slope) < CLOSE:
+            ahead -= step
+            if -OVERSHOOT < step < OVERSHOOT:
+                ahead += beyond
         elif steps > USUAL_STEPS and steps % 2:
             ahead = math.nan
         else:
             ahead = cubic_zero(low, high)
-    root = min(max(_chord_zero(low, high), low[0]), high[0])
-    for end in (low, high):
-        if abs(end[0] - root) <= SAME:
-            return end, steps
+    root = _chord_zero(low, high)
+    if root <= low[0] + SAME:
+        return low, steps
+    if root >= high[0] - SAME:
+        return high, steps
     return function.probe(root), steps
 
 

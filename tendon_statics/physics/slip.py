@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 from .contact.law import State, map_arrays
 from .contact.numbers import FLOATS, Numbers, wave_bounds
 from .loaded_joint import LoadedJoint
+from .named import named
 from .roots import Bracket, brackets
 
 NEGLIGIBLE_LOAD = 1e-9
@@ -155,7 +156,8 @@ class Slip:
 
     def probe(self, angle: Any) -> Probe:
         """Look at an angle ahead in rad."""
-        cosine, sine = self._cosine(angle), self._sine(angle)
+        cosine_of, sine_of = self._cosine, self._sine  # in this way a call takes less
+        cosine, sine = cosine_of(angle), sine_of(angle)
         state = self.law.at(cosine, sine)
         of_cosine, of_sine, of_angle = self._of_cosine, self._of_sine, self._of_angle
         wave, wave_slope = of_sine * cosine - of_cosine * sine, of_cosine * cosine + of_sine * sine
@@ -164,16 +166,15 @@ class Slip:
         return angle, moment - state[0], slope, cosine, sine, moment, wave, wave_slope, state
 
     def slope_bounds(self, one: Probe, other: Probe) -> tuple[Any, Any]:
-        """Return bounds of ∂g/∂θ in units of r T between two angles, at most half a turn apart."""
+        """Return bounds of ∂g/∂θ in units of r T between two angles ahead.
+
+        They are ascending, and at most half a turn apart.
+        """
         angle, _, _, _, _, _, wave, wave_slope, state = one
         other_angle, _, _, _, _, _, other_wave, other_wave_slope, other_state = other
+        amplitude = abs(self._of_cosine) + abs(self._of_sine)
         low, high = wave_bounds(
-            self.numbers,
-            wave,
-            -wave_slope,
-            other_wave,
-            -other_wave_slope,
-            abs(self._of_cosine) + abs(self._of_sine),
+            self.numbers, wave, -wave_slope, other_wave, -other_wave_slope, -amplitude, amplitude
         )
         least, greatest = self.law.slope_bounds(state, other_state, other_angle - angle)
         of_angle = self._of_angle
@@ -197,16 +198,19 @@ class Slip:
         """Return all that is known where it was probed."""
         _, _, slope, cosine, sine, moment, _, _, state = probe
         of_cosine, of_sine = self.tilt
-        return SlipPoint(
-            (cosine, sine),
-            of_cosine * cosine - of_sine * sine,
-            of_sine * cosine + of_cosine * sine,
-            moment,
-            slope,
-            state[0],
-            state[1],
-            self.law.by_share(state),
-            state,
+        return named(
+            SlipPoint,
+            (
+                (cosine, sine),
+                of_cosine * cosine - of_sine * sine,
+                of_sine * cosine + of_cosine * sine,
+                moment,
+                slope,
+                state[0],
+                state[1],
+                self.law.by_share(state),
+                state,
+            ),
         )
 
     def at(self, angle: Any) -> SlipPoint:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .design import JointDesign
 from .load import UPRIGHT, Load
-from .regime import Regime
+from .regime import AT_ROOT, AT_STOP, Regime
 from .roots import refine
 from .state import Equilibrium
 from .tensions import check_tensions, taut_slip
@@ -43,10 +43,10 @@ def solve(
     found = slip.brackets(first, last)
     if found:
         probe, iterations = refine(slip, found[0])
-        regime = Regime.EQUILIBRIUM
+        regime = AT_ROOT
     elif first[1] > 0.0:
         probe, iterations = last, 0
-        regime = Regime.DRIVEN_TO_STOP
+        regime = AT_STOP
     else:
         return Equilibrium(design, load, Regime.HELD, tension_l, tension_s, None, 0, 0)
     angle = slip.side * probe[0]

@@ -13,7 +13,7 @@ from .forces import ContactForces, ForceRemainder
 from .gradients import TensionGradient, stddev_of
 from .kept import kept
 from .load import Load
-from .regime import Regime
+from .regime import AT_ROOT, AT_STOP, Regime
 from .state_basis import StateBasis
 
 
@@ -56,7 +56,7 @@ class Equilibrium(StateBasis):
         if self.bend_angle is None:
             return angles_held(self._taut_slip, stop)
         slip, probe = self._slip_and_probe
-        found_alone = self.root_count == 1 and self.regime is Regime.EQUILIBRIUM
+        found_alone = self.root_count == 1 and self.regime is AT_ROOT
         return angles_held(slip, stop, [probe[0]] if found_alone else None)
 
     @property
@@ -76,9 +76,9 @@ class Equilibrium(StateBasis):
 
         None where friction is not at its limit.
         """
-        if self.regime is Regime.EQUILIBRIUM:
+        if self.regime is AT_ROOT:
             return self._slip_and_probe[1][2] < 0.0  # type: ignore[no-any-return]
-        return True if self.regime is Regime.DRIVEN_TO_STOP else None
+        return True if self.regime is AT_STOP else None
 
     @kept
     def normal_force(self) -> float | None:
@@ -181,16 +181,17 @@ class Equilibrium(StateBasis):
         # What is there already is taken rather than asked for one by one: that saves a tenth.
         design, _, regime, tension_l, tension_s, angle, root_count, iterations, assured, _ = self
         margin = residual = consistent = None
-        normal_force = forces = remainder = pressure_by_tension = None
+        normal_force = forces = remainder = by_tension = pressure_by_tension = None
         if angle is not None:
             slip, probe = self._slip_and_probe
             margin, residual = slip.margin_at(probe), slip.residual_at(probe)
             consistent = self.branch_consistent
             if consistent or root_count is not None:
-                normal_force, forces, remainder, _, pressure_by_tension = self._details
-        by_tension = self.bend_angle_gradient
+                normal_force, forces, remainder, by_tension, pressure_by_tension = self._details
+        if root_count is None:
+            by_tension = self.bend_angle_gradient
         return {
-            'regime': regime.value,
+            'regime': regime._value_,  # which `value` is a detour to
             'tension_l': tension_l,
             'tension_s': tension_s,
             'bend_angle': angle,
@@ -233,5 +234,5 @@ class Equilibrium(StateBasis):
         return answer_derivatives(
             ask,
             *(self.design, self.load, self.bend_angle, self.tension_l + self.tension_s),
-            at_stop=self.regime is Regime.DRIVEN_TO_STOP,
+            at_stop=self.regime is AT_STOP,
         )

@@ -8,7 +8,8 @@ from .design import JointDesign
 from .gradients import TensionGradient
 from .kept import kept
 from .load import Load
-from .regime import Regime
+from .named import named
+from .regime import AT_ROOT, AT_STOP, Regime
 from .slip import Probe, Slip
 from .state_details import StateDetails, state_details
 from .tensions import Tensions, taut_slip
@@ -55,7 +56,7 @@ class StateBasis(StateFields):
         fields : tuple
             All of them.
         """
-        made = tuple.__new__(cls, fields)
+        made = named(cls, fields)
         made.__dict__['_slip_and_probe'] = slip, probe
         return made
 
@@ -71,7 +72,8 @@ class StateBasis(StateFields):
 
     @property
     def _is_at_limit(self) -> bool:
-        return self.regime is Regime.EQUILIBRIUM or self.regime is Regime.DRIVEN_TO_STOP
+        regime = self.regime
+        return regime is AT_ROOT or regime is AT_STOP
 
     @property
     def _friction(self) -> float:
@@ -83,6 +85,5 @@ class StateBasis(StateFields):
     def _details(self) -> StateDetails:
         """Contact force and gradients, all at once."""
         slip, probe = self._slip_and_probe
-        at_root = self.regime is Regime.EQUILIBRIUM
-        at_limit = self._is_at_limit
+        at_root, at_limit = self.regime is AT_ROOT, self._is_at_limit
         return state_details(slip, probe, self._friction, self.design, at_root, at_limit)

@@ -7,6 +7,7 @@ from typing import NamedTuple
 from .design import JointDesign
 from .forces import ContactForces, ForceRemainder, contact_forces
 from .gradients import TensionGradient, angle_by_tensions, finite, normal_by_tensions, of_sides
+from .named import named
 from .slip import Probe, Slip
 
 STAYS = TensionGradient(0.0, 0.0)
@@ -54,10 +55,11 @@ def state_details(
     angle, by_tension = (0.0, 0.0), STAYS
     if at_root:
         if point.slope == 0.0:
-            return StateDetails(normal_force, forces, remainder, None, None)
+            return named(StateDetails, (normal_force, forces, remainder, None, None))
         angle = angle_by_tensions(slip, point, lever)
         by_tension = of_sides(slip, angle, slip.side)
     behind, ahead = normal_by_tensions(slip, point, normal, lever, angle=angle, at_limit=at_limit)
     area = design.contact_area
     by_pressure = of_sides(slip, (behind / area, ahead / area))
-    return StateDetails(normal_force, forces, remainder, finite(by_tension), finite(by_pressure))
+    gradients = finite(by_tension), finite(by_pressure)
+    return named(StateDetails, (normal_force, forces, remainder, *gradients))

@@ -10,6 +10,7 @@ from .design import JointDesign
 from .errors import TensionError
 from .load import UPRIGHT, Load, tension_excess
 from .loaded_joint import loaded_joint
+from .named import named
 from .slip import Slip
 
 NEGLIGIBLE_PULL = 1e-9
@@ -47,7 +48,7 @@ def check_tensions(tension_l: object, tension_s: object) -> Tensions:
         tension_s = _as_float('tension_s', tension_s)
     if not 0.0 <= tension_s <= MAX_TENSION:
         raise _out_of_range('tension_s', tension_s)
-    return Tensions(tension_l, tension_s)
+    return named(Tensions, (tension_l, tension_s))
 
 
 def check_taut(tensions: Tensions) -> Tensions:

@@ -1,12 +1,14 @@
 """What every contact law has to keep; one that is added needs its rows in `CAPACITIES`."""
 
 import math
+import random
 
 import brute
 import pytest
 
 from tendon_statics import JointDesign, Load, slip_margin, solve, solve_batch
 from tendon_statics.physics import CONTACT_LAWS
+from tendon_statics.physics.contact.numbers import FLOATS
 
 CAPACITIES = [
     # law, μ, θ1 and θ2 in deg, |P| / T, tilt ψ in deg, and K / (r T) worked from the definition of
@@ -89,3 +91,31 @@ def test_the_contact_force_and_pressure_of_one_pair_are_those_of_many(law):
         assert among.regime_names.tolist() == [str(alone.regime)] * 3
         if alone.pressure is not None:
             assert among.pressure == pytest.approx([alone.pressure] * 3, rel=1e-10)
+
+
+@pytest.mark.parametrize('law', CONTACT_LAWS)
+def test_the_slope_of_the_capacity_keeps_within_its_bounds_wherever_it_turns(law):
+    draw, turned = random.Random(3), 0
+    for _ in range(300):
+        # Also where the contact force of the paper's law changes its form, and where μ is 1.
+        friction = draw.choice((1.0, draw.uniform(0.05, 1.6)))
+        start = draw.uniform(0.0, 1.4)
+        share = draw.choice((draw.uniform(0.0, 0.99), min(friction, 0.9)))
+        tilt = draw.uniform(-math.pi, math.pi)
+        loaded = CONTACT_LAWS[law](friction, start, draw.uniform(start + 0.05, 1.55)).under(
+            (share, 1.0 - share, (1.0 - share) * (1.0 + share)),
+            (math.cos(tilt), math.sin(tilt)),
+            FLOATS,
+        )
+        low = draw.uniform(-0.5 * math.pi, 1.4)
+        width = draw.uniform(0.0, 0.5 * math.pi - low)
+        states = [
+            loaded.at(math.cos(angle), math.sin(angle))
+            for angle in (low + width * part / 40.0 for part in range(41))
+        ]
+        slopes = [state[1] for state in states]
+        least, greatest = loaded.slope_bounds(states[0], states[-1], width)
+        assert least - 1e-12 <= min(slopes), (friction, share, tilt)
+        assert max(slopes) <= greatest + 1e-12, (friction, share, tilt)
+        turned += max(slopes) > max(slopes[0], slopes[-1]) + 1e-3
+    assert turned > 30

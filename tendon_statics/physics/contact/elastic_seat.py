@@ -109,7 +109,7 @@ class LoadedElasticSeatLaw(LoadedLaw):
             numbers,
             *(seat_by_tilt, gain - seat),
             *(other_seat_by_tilt, gain - other_seat),
-            amplitude,
+            *(-amplitude, amplitude),
         )
         low, high = self._circle.slope_bounds(tuple(circle), tuple(other_circle), width)
         # By how much the seat holds more at the ends, and how far that can change in between.

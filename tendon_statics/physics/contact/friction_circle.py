@@ -72,16 +72,15 @@ class LoadedFrictionCircleLaw(LoadedLaw):
         numbers = self._numbers
         _, _, cos_psi, sin_psi, size = one
         _, _, other_cos_psi, other_sin_psi, other_size = other
-        # R grows with cos ψ, which comes to 1 or −1 in between where sin ψ changes sign.
-        low, high = numbers.ordered(size, other_size)
-        turns = sin_psi * other_sin_psi < 0.0
-        if numbers.any(turns):
-            side = numbers.choose(cos_psi + other_cos_psi < 0.0, -1.0, 1.0)
-            turned = self.at(side * self._cosine, -side * self._sine)[4]
-            turned = numbers.choose(turns, turned, size)
-            low, high = numbers.ordered(low, turned)[0], numbers.ordered(turned, high)[1]
-        least, most = wave_bounds(numbers, sin_psi, cos_psi, other_sin_psi, other_cos_psi, 1.0)
-        scale = self._ratio * self._share
+        share = self._share
+        # R / T grows with cos ψ.
+        low, high = wave_bounds(
+            numbers, size, -sin_psi, other_size, -other_sin_psi, abs(1.0 - share), 1.0 + share
+        )
+        least, most = wave_bounds(
+            numbers, sin_psi, cos_psi, other_sin_psi, other_cos_psi, -1.0, 1.0
+        )
+        scale = self._ratio * share
         return scaled_bounds(numbers, -most, -least, scale / (high + LEAST), scale / (low + LEAST))
 
     def by_share(self, state: State) -> Any:

@@ -59,9 +59,9 @@ class LoadedLaw(ABC):
 
     @abstractmethod
     def slope_bounds(self, one: State, other: State, width: Any) -> tuple[Any, Any]:
-        """Return bounds of ∂κ/∂ψ between two states, `width` in rad apart, at most half a turn.
+        """Return bounds of ∂κ/∂ψ between two states; NaN or infinite where there are none.
 
-        NaN or infinite where there are none.
+        The other is `width` in rad ahead of the one, at most half a turn.
         """
 
     @abstractmethod

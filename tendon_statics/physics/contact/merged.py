@@ -125,15 +125,19 @@ class LoadedMergedLaw(LoadedLaw):
         other_capacity, _, other_sin_phi, other_cos_phi, other_steepness = other
         gain = share * capacity * steepness
         other_gain = share * other_capacity * other_steepness
-        low, high = numbers.ordered(gain, other_gain)
-        turns = cos_phi * other_cos_phi < 0.0
-        if numbers.any(turns):
-            # sin φ comes to 1 or −1 in between.
-            side = numbers.choose(sin_phi + other_sin_phi < 0.0, -1.0, 1.0)
-            capacity, _, _, _, steepness = self.at(side * self._along, side * self._across)
-            gain = numbers.choose(turns, share * capacity * steepness, other_gain)
-            low, high = numbers.ordered(low, gain)[0], numbers.ordered(gain, high)[1]
-        least, most = wave_bounds(numbers, cos_phi, sin_phi, other_cos_phi, other_sin_phi, 1.0)
+        # Its ends: with sin φ = ∓1, T − N = ||P| ± μ N| and R = ||P| ± μ T|.
+        friction, more, excess = self._friction, 1.0 + self._friction, self._excess
+        at_least = excess / more
+        at_most = numbers.choose(
+            share > friction, excess / (self._less + LEAST), (1.0 + share) / more
+        )
+        scale = share * friction * friction
+        lowest = scale * at_least / (share + friction)
+        highest = scale * at_most / (abs(share - friction) + LEAST)
+        low, high = wave_bounds(numbers, gain, cos_phi, other_gain, other_cos_phi, lowest, highest)
+        least, most = wave_bounds(
+            numbers, cos_phi, -sin_phi, other_cos_phi, -other_sin_phi, -1.0, 1.0
+        )
         return scaled_bounds(numbers, least, most, low, high)
 
     def by_share(self, state: State) -> Any:

@@ -44,23 +44,29 @@ FLOATS = Numbers(math.sqrt, math.cos, math.sin, _choose, _ordered, _swapped, boo
 
 
 def wave_bounds(
-    numbers: Numbers, one: Any, one_slope: Any, other: Any, other_slope: Any, amplitude: Any
+    numbers: Numbers,
+    one: Any,
+    one_slope: Any,
+    other: Any,
+    other_slope: Any,
+    lowest: Any,
+    highest: Any,
 ) -> tuple[Any, Any]:
-    """Return bounds of A cos + B sin between two angles, at most half a turn apart.
+    """Return bounds between two angles of A cos + B sin, or of what rises and falls with it.
 
     Parameters
     ----------
     one, one_slope, other, other_slope
-        The wave and its slope, or what has the sign of the slope, at the two angles.
-    amplitude
-        √(A² + B²), or more.
+        It and its slope, or what has the sign of the slope, at the two angles: ascending, and at
+        most half a turn apart, so that it turns once at the most.
+    lowest, highest
+        Its least and greatest value, or beyond: ∓√(A² + B²) for A cos + B sin.
     """
     low, high = numbers.ordered(one, other)
     turns = one_slope * other_slope < 0.0
-    if numbers.any(turns):  # once at the most, on the side where the two ends are on the whole
-        mean = one + other
-        low = numbers.choose(turns & (mean < 0.0), -amplitude, low)
-        high = numbers.choose(turns & (mean >= 0.0), amplitude, high)
+    if numbers.any(turns):
+        low = numbers.choose(turns & (one_slope < 0.0), lowest, low)
+        high = numbers.choose(turns & (one_slope > 0.0), highest, high)
     return low, high
 
 
