@@ -122,7 +122,7 @@ def _angles_below_limit(
 ) -> list[Interval]:
     """Angles ahead with g ≤ 0, where the unit does not slip to the side of the function."""
     # Cut at 0, as `solve` searches, so that its root is the same to the last bit.
-    first, middle, last = slip.probe(-stop), slip.probe(0.0), slip.probe(stop)
+    first, (middle, last) = slip.probe(-stop), slip.ends(stop)
     if roots_ahead is None:
         roots_ahead = _roots_between(slip, middle, last)
     roots = list(dict.fromkeys((*_roots_between(slip, first, middle), *roots_ahead)))

@@ -72,7 +72,7 @@ class NoisySlip:
         self.side = slip.side
         self.chance = 1.0 if condition is None else condition.chance
         self.least_known = ROUNDING if condition is None else RARE
-        self._ends = slip.probe(0.0), slip.probe(stop)
+        self._ends = slip.ends(stop)
         # Of one that is the same at all angles the unit is held, or driven to the stop.
         self._slopes = slip.slope_bounds(*self._ends) if slip.is_determined else (0.0, 0.0)
 

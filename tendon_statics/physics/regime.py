@@ -21,6 +21,10 @@ class Regime(str, Enum):
     SLACK = 'slack'
     """A cable carries no tension, which is outside the model."""
 
+    # Each is equal to its value, so that what is kept by the one is found by the other. That of
+    # `Enum` is another, and takes ten times as long.
+    __hash__ = str.__hash__
+
     def __str__(self) -> str:
         return self.value
 

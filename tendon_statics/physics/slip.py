@@ -96,8 +96,8 @@ class Slip:
     """
 
     __slots__ = (
-        *('_cosine', '_of_angle', '_of_cosine', '_of_sine', '_offset', '_sine', '_tensions'),
-        *('excess', 'joint', 'law', 'numbers', 'share', 'side', 'tilt', 'total'),
+        *('_cosine', '_ends', '_of_angle', '_of_cosine', '_of_sine', '_offset', '_sine'),
+        *('_tensions', 'excess', 'joint', 'law', 'numbers', 'share', 'side', 'tilt', 'total'),
     )
 
     def __init__(
@@ -123,6 +123,7 @@ class Slip:
         self._of_cosine = side * moment_x / total
         self._of_sine = -moment_z / total
         self._of_angle = -stiffness / total
+        self._ends: tuple[Probe, Probe] | None = None
 
     def part(self, rows: Any) -> Slip:
         """Return the slip functions of some of the pairs that there are in arrays."""
@@ -164,6 +165,12 @@ class Slip:
         moment = self._offset + wave_slope + of_angle * angle
         slope = wave + of_angle - state[1]
         return angle, moment - state[0], slope, cosine, sine, moment, wave, wave_slope, state
+
+    def ends(self, stop: Any) -> tuple[Probe, Probe]:
+        """Look at 0 and at the stop ahead in rad, between which a unit may slip; once."""
+        if self._ends is None or self._ends[1][0] is not stop:
+            self._ends = self.probe(0.0), self.probe(stop)
+        return self._ends
 
     def slope_bounds(self, one: Probe, other: Probe) -> tuple[Any, Any]:
         """Return bounds of ∂g/∂θ in units of r T between two angles ahead.

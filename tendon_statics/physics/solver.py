@@ -39,7 +39,7 @@ def solve(
         return Equilibrium(design, load, Regime.SLACK, tension_l, tension_s, None, 0, 0)
 
     slip = taut_slip(design, tensions, load, -1.0 if tension_l > tension_s else 1.0)
-    first, last = slip.probe(0.0), slip.probe(design.max_bend_angle)
+    first, last = slip.ends(design.max_bend_angle)
     found = slip.brackets(first, last)
     if found:
         probe, iterations = refine(slip, found[0])

@@ -44,6 +44,10 @@ def assert_agrees(equilibrium: Equilibrium, regime: str, roots: int, angle, pres
         assert equilibrium.pressure == pytest.approx(pressure, rel=PRESSURE_TOLERANCE)
 
 
+def test_a_regime_is_its_name_to_whoever_looks_it_up():
+    assert {Regime.HELD: 1}['held'] == {'held': 1}[Regime.HELD] == 1
+
+
 def test_the_published_case():
     equilibrium = solve(PRELIMINARY, 1.0, 2.0)
     assert math.degrees(equilibrium.bend_angle) == pytest.approx(17.14, abs=5e-6)
