@@ -125,7 +125,9 @@ def admissible_angles(arm):
         wait_for('the first', heard)
         yield came
     finally:
-        arm.destroy_subscription(subscription)
+        # By the thread that spins, which must not wait for what is destroyed meanwhile.
+        ended = arm.executor.create_task(arm.destroy_subscription, subscription)
+        wait_for('the end of the subscription', ended.done)
 
 
 def bands_told(message):
