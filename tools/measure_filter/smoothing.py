@@ -9,7 +9,8 @@ import sys
 import numpy as np
 
 from tendon_statics.command_line.tables import markdown_table
-from tendon_statics.physics.filter.smoothing import REACH, Windows
+from tendon_statics.physics.filter.local_fits import REACH
+from tendon_statics.physics.filter.smoothing import Windows
 
 from .sessions import NOISES, PROGRAMS, RATES, UNITS, session
 
@@ -32,7 +33,7 @@ def errors(program: str, seconds: float, random: np.random.Generator) -> dict[st
                 drawn = session(unit, program, noise, rate, seconds, random)
                 truth, samples = drawn.true_tension_s, drawn.tension_s[None]
                 lag = round(LAG * rate)
-                windows = Windows(REACH + lag, np.array([lag, 0]))
+                windows = Windows(REACH + lag, np.array([lag, 0]), 1)
                 for end in range(REACH + lag, samples.shape[1] + 1, EVERY):
                     one = windows.estimate(samples[:, end - REACH - lag : end], noise)
                     for row, (name, age) in enumerate((('committed', lag), ('newest', 0))):
