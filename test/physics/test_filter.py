@@ -61,6 +61,24 @@ def test_without_noise_to_speak_of_it_is_the_tracker():
     assert tracker.bend_angle > math.radians(10.0)
 
 
+@pytest.mark.parametrize('unit', list(UNITS))
+def test_a_unit_that_is_driven_to_both_sides_within_a_lag_is_followed_to_both(unit):
+    """At 5 Hz, from stop to stop, without noise to speak of."""
+    design, weak = UNITS[unit]
+    found = StickSlipFilter(design, tension_stddev=1e-7)
+    tracker = StickSlipTracker(design)
+    truth = {}
+    for index in range(200):
+        drive = 1.15 * weak * math.sin(2.0 * math.pi * 5.0 * index / 500.0)
+        pair = weak + max(-drive, 0.0), weak + max(drive, 0.0)
+        truth[index / 500.0] = tracker.update(*pair).bend_angle
+        found.update(*pair, index / 500.0)
+        if committed := found.committed:
+            assert committed.bend_angle == pytest.approx(truth[committed.time], abs=1e-6)
+    for side in (min, max):
+        assert abs(side(truth.values())) == design.max_bend_angle
+
+
 def test_the_same_seed_gives_the_same_and_mirrored_tensions_the_mirror_image():
     ramp = [(3.0, 3.0 + 0.004 * index) for index in range(800)]
     runs = [StickSlipFilter(HANGING, tension_stddev=NOISE, seed=3) for _ in range(2)]
