@@ -9,12 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..array_numbers import ARRAYS
-from ..contact.law import map_arrays
-from ..design import JointDesign
 from ..loaded_joint import LoadedJoint
 from ..roots import refine
 from ..slip import ROUNDING, Probe, Slip
-from ..stacked_design import StackedDesign
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -26,29 +23,20 @@ STILL = 1e-7
 """Step in rad after which the next is not worth taking, being some square of it"""
 
 
-def slips_of(
-    units: JointDesign | StackedDesign, joint: LoadedJoint, tensions: Floats, side: float
-) -> Slip:
-    """Return the slip functions to one side of arrays of tensions.
+def slips_of(joint: LoadedJoint, tensions: Floats) -> Slip:
+    """Return the slip functions of pairs to the side of the last one's stronger cable.
 
     Parameters
     ----------
-    units : JointDesign or StackedDesign
-        Of all members, or one of each.
     joint : LoadedJoint
-        Theirs under a dead load, of shapes that broadcast to that of the tensions.
+        Theirs under a dead load, of all members or one of each.
     tensions : ndarray
         T_l and T_s in N, shape ``(2, pairs, members)``; where they do not seat the joint the
         result is NaN.
     """
     tension_l, tension_s = tensions
-    if isinstance(units, StackedDesign) or not isinstance(joint.size, float):
-        # All arrays of one shape, so that parts can be taken.
-        shape = tension_l.shape
-        joint = map_arrays(
-            joint._replace(size=np.asarray(joint.size) + np.zeros(shape)),
-            lambda values: np.broadcast_to(values, shape),
-        )
+    middle = tension_l.shape[1] // 2
+    side = 1.0 if tension_s[-1, middle] >= tension_l[-1, middle] else -1.0
     excess = tension_l + tension_s - joint.size
     seated = np.minimum(np.minimum(tension_l, tension_s), excess) > 0.0
     if np.count_nonzero(seated) < seated.size:
@@ -137,7 +125,8 @@ def follow(slips: Slip, angles: Floats, stop: Any) -> Sequence[Floats]:
     slides = whole.slides
     if not np.count_nonzero(slides):
         return resting
-    sides = np.unique(whole.side[slides]).tolist()
+    side = whole.slips.side
+    sides = [side] if isinstance(side, float) else np.unique(side[slides]).tolist()
     path = _pushed(slips, whole, angles, stop, sides)
     if path is None and len(sides) == 1:
         path = _pushed(slips, whole, angles, stop, [-1.0, 1.0])
