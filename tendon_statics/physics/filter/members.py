@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 NEWTON_STEPS = 12
-"""Steps to a landing at the most; four or so are taken"""
+"""Steps to a landing at the most; three or so are taken"""
 
 STILL = 1e-7
 """Step in rad after which the next is not worth taking, being some square of it"""
@@ -119,12 +119,9 @@ def follow(slips: Slip, angles: Floats, stop: Any) -> Sequence[Floats]:
         Where they are at first and after each pair.
     """
     whole = Step(slips, angles, stop)
-    resting = [angles] * (len(whole.moves) + 1)
-    if not np.count_nonzero(whole.moves):
-        return resting
     slides = whole.slides
     if not np.count_nonzero(slides):
-        return resting
+        return [angles] * (len(slides) + 1)
     side = whole.slips.side
     sides = [side] if isinstance(side, float) else np.unique(side[slides]).tolist()
     path = _pushed(slips, whole, angles, stop, sides)
