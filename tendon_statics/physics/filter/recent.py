@@ -69,7 +69,7 @@ class RecentSamples:
             count += 1
         return count
 
-    def path(self, settled: int, measured: int) -> list[int]:
+    def path(self, settled: int, measured: int) -> tuple[int, ...]:
         """Return the places to look at: all that are settled, and some of the newer ones.
 
         Parameters
@@ -79,21 +79,25 @@ class RecentSamples:
 
         Returns
         -------
-        list of int
+        tuple of int
             Ages, as how many samples came after each.
         """
-        newest = len(self.waiting) - 1
-        newer = max(newest - max(settled, measured), 0)
-        return [
-            *(newest - place for place in range(settled)),
-            *sorted({round(share * newer) for share in PATH}, reverse=True),
-        ]
+        return _path(len(self.waiting) - 1, settled, max(settled, measured))
 
-    def smoothed(self, ages: Sequence[int]) -> Estimate:
+    def smoothed(self, ages: tuple[int, ...]) -> Estimate:
         """Estimate the tensions at samples of these ages, the oldest first."""
         count = min(len(self._buffer), REACH + ages[0])
-        windows = _windows(count, tuple(ages), self._signals)
+        windows = _windows(count, ages, self._signals)
         return windows.estimate(self._buffer.newest(count), self._stddev)
+
+
+@lru_cache(KEPT_WINDOWS)
+def _path(newest: int, settled: int, known: int) -> tuple[int, ...]:
+    newer = max(newest - known, 0)
+    return (
+        *range(newest, newest - settled, -1),
+        *sorted({round(share * newer) for share in PATH}, reverse=True),
+    )
 
 
 @lru_cache(KEPT_WINDOWS)

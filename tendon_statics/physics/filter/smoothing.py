@@ -85,6 +85,7 @@ class Windows:
         # find elements in a row: by size, kind, signal and place; taken by their flat numbers.
         self._spots = np.arange(signals * len(ages)).reshape(signals, -1)
         self._of_signal = fits.width * np.arange(signals)[:, None]
+        self._of_slopes = self._of_signal + fits.slope_from_line
         self._of_sizes = fits.number[:, :, None] + self._of_signal
         error = np.where(fits.there, fits.error[fits.number], np.inf)
         half_width = CONFIDENCES[:, None, None] * error
@@ -132,7 +133,7 @@ class Windows:
         taken = chosen[0]
         error = np.hypot(stddev * fits.error.take(taken), wider - value)
         lines = taken[LINES]
-        slope = found.take(lines + (self._of_signal + fits.slope_from_line))
+        slope = found.take(lines + self._of_slopes)
         steep = slope * slope * fits.precision.take(lines) > (SURE * stddev) ** 2
         best = self._best(value, error, slope, steep, stddev)
         which = self._spots.size * best + self._spots
@@ -154,11 +155,6 @@ class Windows:
         stddev : float
             Standard deviation of a sample.
         """
-        # A rest needs no handicap, where any window that noise has left whole is as good.
-        handicapped = error
-        if np.count_nonzero(steep):
-            handicapped = np.where(steep[0] | steep[1], error * _HANDICAPS, error)
-        surest: NDArray[np.intp] = handicapped.argmin(axis=0)
         # Before and after the place, whichever of mean and line is the surer.
         of_mean, of_line = error[MEANS], error[LINES]
         lined = of_line < of_mean
@@ -167,8 +163,14 @@ class Windows:
         change = says[1] - says[0]
         before, after = sure * sure
         doubt = before + after
-        steep &= lined
-        corner = change * change > np.where(steep[0] | steep[1], doubt, SURE * SURE * doubt)
+        handicapped, least = error, SURE * SURE * doubt
+        # A rest needs no handicap, where any window that noise has left whole is as good.
+        if np.count_nonzero(steep):
+            handicapped = np.where(steep[0] | steep[1], error * _HANDICAPS, error)
+            steep &= lined
+            least = np.where(steep[0] | steep[1], doubt, least)
+        surest: NDArray[np.intp] = handicapped.argmin(axis=0)
+        corner = change * change > least
         if not np.count_nonzero(corner):
             return surest
         slope *= lined
