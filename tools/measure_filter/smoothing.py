@@ -46,7 +46,7 @@ def overshot(slope: float, ramps: int, random: np.random.Generator) -> float:
     """Share of the ends of ramps that are seen higher than they are by `EXTREME` errors."""
     lag, rest, before = 30, 80, 150
     truth = np.concatenate([slope * np.arange(-before, 0.0), np.zeros(rest + lag)])
-    windows = Windows(REACH + lag, np.array([lag]))
+    windows = Windows(REACH + lag, np.array([lag]), 1)
     count = 0
     for _ in range(ramps):
         samples = (truth + random.normal(0.0, 1.0, len(truth)))[None]
