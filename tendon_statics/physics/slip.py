@@ -69,7 +69,7 @@ class SlipPoint(NamedTuple):
 class Slip:
     """The slip function of one unit and one pair of tensions, for slipping to one side.
 
-    Floats, or arrays of one shape for many pairs.
+    Floats, or for many pairs arrays; those of a joint broadcast to the shape of the pairs.
 
     Parameters
     ----------
@@ -127,7 +127,12 @@ class Slip:
 
     def part(self, rows: Any) -> Slip:
         """Return the slip functions of some of the pairs that there are in arrays."""
-        return self._each(lambda values: values[rows], self.numbers)
+        total = self.total
+
+        def taken(values: Any) -> Any:
+            return (values if values.shape == total.shape else values + 0.0 * total)[rows]
+
+        return self._each(taken, self.numbers)
 
     def one(self, index: int) -> Slip:
         """Return the slip function of one of the pairs that there are in arrays, of floats."""
@@ -135,13 +140,9 @@ class Slip:
 
     def _each(self, change: Callable[[Any], Any], numbers: Numbers) -> Slip:
         """Return the same with a function applied to each array."""
-        # All of a joint is arrays, or none of it, so that this tells.
-        joint = self.joint
-        if getattr(joint.size, 'ndim', 0):
-            joint = map_arrays(joint, change)
         left, right = self._tensions
         return Slip(
-            *(joint, change(self.excess), change(left), change(right)),
+            *(map_arrays(self.joint, change), change(self.excess), change(left), change(right)),
             map_arrays(self.side, change),
             numbers,
         )

@@ -35,6 +35,16 @@ def fed(found, tensions, *, rate=500.0, noise=NOISE, seed=1, start=0.0, load=Non
     return states
 
 
+RAMP = [(3.0, 3.0 + 0.004 * index) for index in range(800)]
+"""Tensions in N of the hanging unit, which slips along with them in the end"""
+
+
+@pytest.fixture(scope='module')
+def ramped():
+    """States of a filter that knows bias and design, one for each pair of `RAMP`."""
+    return fed(StickSlipFilter(HANGING, tension_stddev=NOISE), RAMP)
+
+
 def test_a_unit_held_3_percent_below_slip_stays_where_it_is():
     """The tracker is driven to the stop within seconds by the same samples."""
     found = StickSlipFilter(PRELIMINARY, tension_stddev=NOISE)
@@ -61,14 +71,31 @@ def test_without_noise_to_speak_of_it_is_the_tracker():
     assert tracker.bend_angle > math.radians(10.0)
 
 
+@pytest.mark.parametrize('unit', list(UNITS))
+def test_a_unit_that_is_driven_to_both_sides_within_a_lag_is_followed_to_both(unit):
+    """At 5 Hz, from stop to stop, without noise to speak of."""
+    design, weak = UNITS[unit]
+    found = StickSlipFilter(design, tension_stddev=1e-7)
+    tracker = StickSlipTracker(design)
+    truth = {}
+    for index in range(200):
+        drive = 1.15 * weak * math.sin(2.0 * math.pi * 5.0 * index / 500.0)
+        pair = weak + max(-drive, 0.0), weak + max(drive, 0.0)
+        truth[index / 500.0] = tracker.update(*pair).bend_angle
+        found.update(*pair, index / 500.0)
+        if committed := found.committed:
+            assert committed.bend_angle == pytest.approx(truth[committed.time], abs=1e-6)
+    for side in (min, max):
+        assert abs(side(truth.values())) == design.max_bend_angle
+
+
 def test_the_same_seed_gives_the_same_and_mirrored_tensions_the_mirror_image():
-    ramp = [(3.0, 3.0 + 0.004 * index) for index in range(800)]
     runs = [StickSlipFilter(HANGING, tension_stddev=NOISE, seed=3) for _ in range(2)]
-    one, other = (fed(run, ramp)[-1] for run in runs)
+    one, other = (fed(run, RAMP)[-1] for run in runs)
     np.testing.assert_array_equal(one.members, other.members)
     random = np.random.default_rng(1)
     mirrored = StickSlipFilter(HANGING, tension_stddev=NOISE)
-    for index, (tension_l, tension_s) in enumerate(ramp):
+    for index, (tension_l, tension_s) in enumerate(RAMP):
         noise = random.normal(0.0, NOISE, 2)
         state = mirrored.update(tension_s + noise[1], tension_l + noise[0], index / 500.0)
     np.testing.assert_allclose(state.members, -one.members[::-1], atol=1e-7)
@@ -88,7 +115,7 @@ def test_where_it_cannot_know_whether_the_unit_has_slipped_it_says_both():
 
 def test_what_is_new_is_provisional_and_what_is_a_lag_old_is_not():
     found = StickSlipFilter(HANGING, tension_stddev=NOISE, lag=0.1)
-    states = fed(found, [(3.0, 3.0 + 0.004 * index) for index in range(800)])
+    states = fed(found, RAMP)
     assert all(state.provisional for state in states)
     committed = found.committed
     assert not committed.provisional
@@ -173,29 +200,26 @@ def test_a_stop_tells_where_a_doubted_unit_is_only_if_nothing_else_can_hold_it()
     assert fed(found, [(1.0, 3.0)] * 200, start=2.0)[-1].assured
 
 
-def test_a_bias_that_is_stated_widens_what_is_known():
-    ramp = [(3.0, 3.0 + 0.004 * index) for index in range(700)]
-    exact = StickSlipFilter(HANGING, tension_stddev=NOISE)
+def test_a_bias_that_is_stated_widens_what_is_known(ramped):
     biased = StickSlipFilter(HANGING, tension_stddev=NOISE, tension_bias_stddev=0.05)
-    assert fed(biased, ramp)[-1].bend_angle_stddev > 2.0 * fed(exact, ramp)[-1].bend_angle_stddev
+    assert fed(biased, RAMP[:700])[-1].bend_angle_stddev > 2.0 * ramped[699].bend_angle_stddev
 
 
 def test_the_load_counts():
     found = StickSlipFilter(HANGING, tension_stddev=NOISE)
     tracker = StickSlipTracker(HANGING)
     load = Load.tilted(0.3)
-    ramp = [(3.0, 3.0 + 0.004 * index) for index in range(700)]
+    ramp = RAMP[:700]
     state = fed(found, ramp, load=load)[-1]
     for pair in ramp:
         tracker.update(*pair, load)
     assert state.bend_angle == pytest.approx(tracker.bend_angle, abs=math.radians(1.0))
 
 
-def test_pressure_comes_with_its_deviation():
-    found = StickSlipFilter(HANGING, tension_stddev=NOISE)
-    state = fed(found, [(3.0, 3.0 + 0.004 * index) for index in range(700)])[-1]
+def test_pressure_comes_with_its_deviation(ramped):
+    state = ramped[699]
     tracker = StickSlipTracker(HANGING, state.bend_angle)
-    expected = tracker.update(3.0, 3.0 + 0.004 * 699)
+    expected = tracker.update(*RAMP[699])
     assert state.pressure == pytest.approx(expected.pressure, rel=0.05)
     assert state.pressure_stddev > 0.0
 
@@ -297,11 +321,10 @@ def test_a_gap_in_time_is_not_bridged():
 FRICTION = DesignUncertainty(('friction_coefficient',), ((0.01**2,),))
 
 
-def test_a_design_that_is_not_quite_known_widens_what_is_known():
-    ramp = [(3.0, 3.0 + 0.004 * index) for index in range(640)]
-    exact = StickSlipFilter(HANGING, tension_stddev=NOISE)
+def test_a_design_that_is_not_quite_known_widens_what_is_known(ramped):
+    ramp = RAMP[:640]
     unsure = StickSlipFilter(HANGING, tension_stddev=NOISE, design_covariance=FRICTION)
-    one, other = fed(exact, ramp)[-1], fed(unsure, ramp)[-1]
+    one, other = ramped[639], fed(unsure, ramp)[-1]
     assert other.bend_angle_stddev > 2.0 * one.bend_angle_stddev
     assert other.pressure_stddev > one.pressure_stddev
     for friction in (0.385, 0.415):

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from tendon_statics.physics.filter.smoothing import REACH, Windows
+from tendon_statics.physics.filter.local_fits import REACH
+from tendon_statics.physics.filter.smoothing import Windows
 
 NOISE = 0.01
 
@@ -15,7 +16,7 @@ def estimate(signal, age, seed=0):
     count = REACH + age
     # Each a signal of its own, that begins one sample later.
     seen = np.lib.stride_tricks.sliding_window_view(samples, count)[1:]
-    found = Windows(count, np.array([age])).estimate(seen, NOISE)
+    found = Windows(count, np.array([age]), len(seen)).estimate(seen, NOISE)
     return signal[REACH : len(signal) - age], found.value[:, 0], found.error[:, 0]
 
 
@@ -48,7 +49,7 @@ def test_errors_are_of_the_size_that_they_say():
 
 
 def test_the_first_sample_is_its_own_estimate():
-    found = Windows(1, np.array([0])).estimate(np.array([[2.5], [1.5]]), NOISE)
+    found = Windows(1, np.array([0]), 2).estimate(np.array([[2.5], [1.5]]), NOISE)
     assert found.value[:, 0].tolist() == [2.5, 1.5]
     assert found.error[:, 0].tolist() == [NOISE, NOISE]
 
@@ -69,7 +70,7 @@ def test_a_parabola_is_itself():
     time = np.arange(300.0)
     signal = 1.0 + 0.3 * time - 0.002 * time**2
     for age in (75, 10):
-        found = Windows(300, np.array([age])).estimate(signal[None], 1e-9)
+        found = Windows(300, np.array([age]), 1).estimate(signal[None], 1e-9)
         assert found.value[0, 0] == pytest.approx(signal[299 - age], abs=1e-9)
 
 

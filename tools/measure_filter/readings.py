@@ -9,8 +9,9 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
+from tendon_statics.physics.filter.local_fits import REACH
 from tendon_statics.physics.filter.scores import Reading
-from tendon_statics.physics.filter.smoothing import REACH, Estimate, Windows
+from tendon_statics.physics.filter.smoothing import Estimate, Windows
 from tendon_statics.physics.load import UPRIGHT
 from tendon_statics.physics.tensions import Tensions
 
@@ -23,9 +24,9 @@ AT_ONCE = 1000
 """Places that are smoothed at once"""
 
 
-@functools.cache
-def _windows(count: int, age: int) -> Windows:
-    return Windows(count, np.array([age]))
+@functools.lru_cache(512)
+def _windows(count: int, age: int, signals: int) -> Windows:
+    return Windows(count, np.array([age]), signals)
 
 
 def readings(
@@ -56,12 +57,13 @@ def readings(
     first = min(REACH - 1, settled)
     for place in range(first):
         count = place + age + 1
-        found = _windows(count, age).estimate(tensions[:, :count], noise)
+        found = _windows(count, age, len(tensions)).estimate(tensions[:, :count], noise)
         yield from of(slice(place, place + 1), found)
     if settled > first:
         width = REACH + age
         views = sliding_window_view(tensions, width, axis=1)
         for start in range(0, views.shape[1], AT_ONCE):
             part = views[:, start : start + AT_ONCE]
-            found = _windows(width, age).estimate(part.reshape(-1, width), noise)
+            rows = part.reshape(-1, width)
+            found = _windows(width, age, len(rows)).estimate(rows, noise)
             yield from of(slice(first + start, first + start + part.shape[1]), found)

@@ -9,7 +9,8 @@ import sys
 import numpy as np
 
 from tendon_statics.command_line.tables import markdown_table
-from tendon_statics.physics.filter.smoothing import REACH, Windows
+from tendon_statics.physics.filter.local_fits import REACH
+from tendon_statics.physics.filter.smoothing import Windows
 
 from .sessions import NOISES, PROGRAMS, RATES, UNITS, session
 
@@ -32,7 +33,7 @@ def errors(program: str, seconds: float, random: np.random.Generator) -> dict[st
                 drawn = session(unit, program, noise, rate, seconds, random)
                 truth, samples = drawn.true_tension_s, drawn.tension_s[None]
                 lag = round(LAG * rate)
-                windows = Windows(REACH + lag, np.array([lag, 0]))
+                windows = Windows(REACH + lag, np.array([lag, 0]), 1)
                 for end in range(REACH + lag, samples.shape[1] + 1, EVERY):
                     one = windows.estimate(samples[:, end - REACH - lag : end], noise)
                     for row, (name, age) in enumerate((('committed', lag), ('newest', 0))):
@@ -45,7 +46,7 @@ def overshot(slope: float, ramps: int, random: np.random.Generator) -> float:
     """Share of the ends of ramps that are seen higher than they are by `EXTREME` errors."""
     lag, rest, before = 30, 80, 150
     truth = np.concatenate([slope * np.arange(-before, 0.0), np.zeros(rest + lag)])
-    windows = Windows(REACH + lag, np.array([lag]))
+    windows = Windows(REACH + lag, np.array([lag]), 1)
     count = 0
     for _ in range(ramps):
         samples = (truth + random.normal(0.0, 1.0, len(truth)))[None]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +15,8 @@ from ..load import DeadLoad, Load
 from ..loaded_joint import LoadedJoint, loaded_joint
 from ..slip import Slip
 from ..stacked_design import StackedDesign
-from .members import slips_of
+from .members import follow, slips_of
+from .resting import hold_all
 from .smoothing import Estimate
 
 Floats = NDArray[np.float64]
@@ -145,19 +147,30 @@ class Ensemble(TensionErrors):
         dead = (np.array(np.broadcast_arrays(*part)).reshape(len(loads), -1) for part in parts)
         return LoadedJoint.of(self.units, DeadLoad(*dead))
 
-    def slips(self, tensions: Floats, loads: list[Load]) -> Slip:
-        """Return slip functions to the side of the last pair's stronger cable.
+    def follow(self, tensions: Floats, loads: list[Load], start: Floats) -> Sequence[Floats]:
+        """Follow the members through pairs of tensions, under a load each.
 
         Parameters
         ----------
         tensions : ndarray
             In N, of shape ``(2, pairs, members)``.
-        loads : list of Load
-            What acts beside each pair.
+        start : ndarray
+            Where the members are at first, in rad.
+
+        Returns
+        -------
+        sequence of ndarray
+            Where they are at first and after each pair.
         """
-        middle = tensions.shape[-1] // 2
-        side = 1.0 if tensions[1, -1, middle] >= tensions[0, -1, middle] else -1.0
-        return slips_of(self.units, self.joint(loads), tensions, side)
+        joint, place, stop = self.joint(loads), float(start[0]), self.stop
+        if (
+            isinstance(self.units, JointDesign)
+            and isinstance(joint.size, float)
+            and np.count_nonzero(start == place) == len(start)
+            and hold_all(joint, tensions, place, stop)
+        ):
+            return [start] * (len(loads) + 1)
+        return follow(slips_of(joint, tensions), start, stop)
 
 
 class MemberSlips(NamedTuple):
@@ -184,4 +197,4 @@ class MemberSlips(NamedTuple):
         return self._at(self.ensemble.driving_and_pressing(self.tensions, self.error))
 
     def _at(self, tensions: Floats) -> Slip:
-        return self.ensemble.slips(tensions, [self.load] * tensions.shape[1])
+        return slips_of(self.ensemble.joint([self.load]), tensions)

@@ -3,53 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..array_numbers import ARRAYS
-from ..contact.law import map_arrays
-from ..design import JointDesign
 from ..loaded_joint import LoadedJoint
 from ..roots import refine
-from ..slip import ROUNDING, Slip
-from ..stacked_design import StackedDesign
+from ..slip import ROUNDING, Probe, Slip
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 NEWTON_STEPS = 12
-"""Steps to a landing at the most; four or so are taken"""
+"""Steps to a landing at the most; three or so are taken"""
 
-STILL = 1e-9
-"""Step in rad after which the next is not worth taking"""
+STILL = 1e-7
+"""Step in rad after which the next is not worth taking, being some square of it"""
 
 
-def slips_of(
-    units: JointDesign | StackedDesign, joint: LoadedJoint, tensions: Floats, side: float
-) -> Slip:
-    """Return the slip functions to one side of arrays of tensions.
+def slips_of(joint: LoadedJoint, tensions: Floats) -> Slip:
+    """Return the slip functions of pairs to the side of the last one's stronger cable.
 
     Parameters
     ----------
-    units : JointDesign or StackedDesign
-        Of all members, or one of each.
     joint : LoadedJoint
-        Theirs under a dead load, of shapes that broadcast to that of the tensions.
+        Theirs under a dead load, of all members or one of each.
     tensions : ndarray
         T_l and T_s in N, shape ``(2, pairs, members)``; where they do not seat the joint the
         result is NaN.
     """
     tension_l, tension_s = tensions
-    if isinstance(units, StackedDesign) or not isinstance(joint.size, float):
-        # All arrays of one shape, so that parts can be taken.
-        shape = tension_l.shape
-        joint = map_arrays(
-            joint._replace(size=np.asarray(joint.size) + np.zeros(shape)),
-            lambda values: np.broadcast_to(values, shape),
-        )
+    middle = tension_l.shape[1] // 2
+    side = 1.0 if tension_s[-1, middle] >= tension_l[-1, middle] else -1.0
     excess = tension_l + tension_s - joint.size
     seated = np.minimum(np.minimum(tension_l, tension_s), excess) > 0.0
     if np.count_nonzero(seated) < seated.size:
@@ -96,11 +83,17 @@ class Step:
         self.moves: Flags = probe[5] > probe[8][0] * (1.0 + ROUNDING)
         self._angles, self._stop = angles, stop
 
-    @cached_property
+    @property
     def pressed(self) -> Flags:
         """Whether each is driven on against a stop."""
-        at_stop: Flags = self.slips.side * self._angles >= self._stop
-        return self.moves & at_stop
+        pressed: Flags = self.moves & (self.slips.side * self._angles >= self._stop)
+        return pressed
+
+    @property
+    def slides(self) -> Flags:
+        """Whether each slips from where it was."""
+        slides: Flags = self.moves & (self.slips.side * self._angles < self._stop)
+        return slides
 
     @property
     def side(self) -> Floats:
@@ -126,20 +119,20 @@ def follow(slips: Slip, angles: Floats, stop: Any) -> Sequence[Floats]:
         Where they are at first and after each pair.
     """
     whole = Step(slips, angles, stop)
-    resting = [angles] * (len(whole.moves) + 1)
-    if not np.count_nonzero(whole.moves):
-        return resting
-    driven = whole.moves & ~whole.pressed
-    if not np.count_nonzero(driven):
-        return resting
-    sides = np.unique(whole.side[driven])
-    path = _pushed(slips, angles, stop, sides)
+    slides = whole.slides
+    if not np.count_nonzero(slides):
+        return [angles] * (len(slides) + 1)
+    side = whole.slips.side
+    sides = [side] if isinstance(side, float) else np.unique(side[slides]).tolist()
+    path = _pushed(slips, whole, angles, stop, sides)
     if path is None and len(sides) == 1:
-        path = _pushed(slips, angles, stop, np.array([-1.0, 1.0]))
-    return _stepped(slips, angles, stop) if path is None else path
+        path = _pushed(slips, whole, angles, stop, [-1.0, 1.0])
+    return _stepped(slips, whole, angles, stop) if path is None else path
 
 
-def _pushed(slips: Slip, angles: Floats, stop: Any, sides: Floats) -> Sequence[Floats] | None:
+def _pushed(
+    slips: Slip, whole: Step, angles: Floats, stop: Any, sides: Sequence[float]
+) -> Sequence[Floats] | None:
     """Follow members that a path pushes ahead of it, whose slip functions fall with the angle.
 
     Each pair then holds one interval of angles, and a member outside is pushed to its end: the
@@ -151,58 +144,72 @@ def _pushed(slips: Slip, angles: Floats, stop: Any, sides: Floats) -> Sequence[F
         As `follow` does; None where the functions do not all fall, or members are pushed to a
         side that is not among `sides`.
     """
+    is_one_way = len(sides) == 1
     ends = []
-    for side in sides.tolist():
+    for side in sides:
         facing = towards(slips, side)
-        low = float((side * angles).min())
-        _, greatest = facing.slope_bounds(facing.probe(low), facing.probe(stop))
-        if not np.all((greatest < 0.0) | np.isnan(greatest)):
+        start = whole.probe if facing is whole.slips else facing.probe(side * angles)
+        # What lies behind counts only for a member that is pushed there by the other side.
+        behind = start if is_one_way else facing.probe(-stop)
+        _, greatest = facing.slope_bounds(behind, facing.probe(stop))
+        if np.count_nonzero(greatest >= 0.0):
             return None
-        start = np.broadcast_to(side * angles, greatest.shape)
-        ends.append(side * _root_of_falling(facing, start, low, stop))
+        ends.append(side * _root_of_falling(facing, start, behind[0], stop))
     path = [angles]
-    for row in range(len(ends[0])):
-        angles = path[-1]
-        for side, end in zip(sides, ends, strict=True):
-            angles = np.fmax(angles, end[row]) if side > 0.0 else np.fmin(angles, end[row])
+    for pair in zip(*ends, strict=True):
+        for side, end in zip(sides, pair, strict=True):
+            angles = np.fmax(angles, end) if side > 0.0 else np.fmin(angles, end)
         path.append(angles)
-    if len(sides) == 1:
+    if is_one_way:
         found = np.array(path[1:])
-        if np.any(facing.moment_at(side * found) < 0.0):
+        if np.count_nonzero(facing.moment_at(side * found) < 0.0):
             after = Step(slips, found, stop)
-            if np.any(after.moves & ~after.pressed & (after.side != side)):
+            if np.count_nonzero(after.slides & (after.side != side)):
                 return None
     return path
 
 
-def _root_of_falling(slips: Slip, place: Floats, lowest: float, stop: Any) -> Floats:
-    """Roots of falling functions, ahead; the ends of the range where there is none within."""
-    low, high = np.full(place.shape, lowest), np.full(place.shape, stop)
+def _root_of_falling(slips: Slip, start: Probe, lowest: Any, stop: Any) -> Floats:
+    """Roots of falling functions; the ends of the range where there is none within.
+
+    Parameters
+    ----------
+    slips : Slip
+    start : Probe
+        Where they are looked for first.
+    lowest, stop : float or ndarray
+        The range in rad ahead.
+    """
+    probe, low, high = start, lowest, stop
+    ahead: Floats
     for _ in range(NEWTON_STEPS):
-        _, excess, slope, *_ = slips.probe(place)
+        place, excess, slope, *_ = probe
         below = excess > 0.0
         low, high = np.where(below, place, low), np.where(below, high, place)
         # Beyond an end Newton's step is cut there, and the function's sign there ends it.
         ahead = np.minimum(np.maximum(place - excess / slope, low), high)
-        still = np.abs(ahead - place) < STILL
-        place = ahead
-        if (still | np.isnan(ahead)).all():
+        if not np.count_nonzero(np.abs(ahead - place) >= STILL):
             break
-    return place
+        probe = slips.probe(ahead)
+    return ahead
 
 
-def _stepped(slips: Slip, angles: Floats, stop: Any) -> Sequence[Floats]:
-    """Follow members pair by pair; as `follow` does."""
-    path = [angles]
-    for index in range(len(slips.total)):
-        step = Step(slips.part(index), angles, stop)
-        moved = step.moves & ~step.pressed
-        if moved.any():
-            angles = angles.copy()
-            landings = _landings(step.slips.part(moved), angles[moved], _of(stop, moved))
-            angles[moved] = landings
+def _stepped(slips: Slip, whole: Step, angles: Floats, stop: Any) -> Sequence[Floats]:
+    """Follow members from one pair at which some slip to the next; as `follow` does."""
+    path, step = [angles], whole
+    while True:
+        slide = np.flatnonzero(step.slides.any(axis=1))
+        if not len(slide):
+            return path + [angles] * len(step.moves)
+        first = int(slide[0])
+        path += [angles] * first
+        who = step.slides[first]
+        angles = angles.copy()
+        angles[who] = _landings(step.slips.part((first, who)), angles[who], _of(stop, who))
         path.append(angles)
-    return path
+        if len(path) > len(slips.total):
+            return path
+        step = Step(slips.part(slice(len(path) - 1, None)), angles, stop)
 
 
 def _of(stop: Any, which: Flags) -> Any:
@@ -211,21 +218,18 @@ def _of(stop: Any, which: Flags) -> Any:
 
 def _landings(slips: Slip, angles: Floats, stop: Any) -> Floats:
     """Where members come to rest that are driven on: the first root ahead, or the stop."""
-    start = slips.side * angles
-    lowest = float(start.min())
-    at_stop = slips.probe(stop)
-    least, greatest = slips.slope_bounds(slips.probe(lowest), at_stop)
-    landing = np.full(len(start), stop)
+    start, at_stop = slips.probe(slips.side * angles), slips.probe(stop)
+    least, greatest = slips.slope_bounds(start, at_stop)
+    landing = np.full(len(angles), stop)
     # Falling all the way: one root, or none before the stop. Rising: none.
     falling = greatest < 0.0
     rooted = falling & (at_stop[1] < 0.0)
     if rooted.any():
-        landing[rooted] = _root_of_falling(
-            slips.part(rooted), start[rooted], lowest, _of(stop, rooted)
-        )
+        those, behind = slips.part(rooted), start[0][rooted]
+        landing[rooted] = _root_of_falling(those, those.probe(behind), behind, _of(stop, rooted))
     for index in np.flatnonzero(~falling & ~(least > 0.0)):
         one = slips.one(int(index))
-        found = one.brackets(one.probe(float(start[index])), one.probe(float(landing[index])))
+        found = one.brackets(one.probe(float(start[0][index])), one.probe(float(landing[index])))
         if found:
             landing[index] = refine(one, found[0])[0][0]
     landings: Floats = slips.side * landing

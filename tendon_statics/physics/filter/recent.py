@@ -8,16 +8,18 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..load import Load
-from .smoothing import REACH, Estimate, SampleBuffer, Windows
+from .local_fits import REACH
+from .smoothing import Estimate, Windows
 
 PATH = (0.7, 0.45, 0.28, 0.16, 0.08, 0.03, 0.0)
 """Places of the provisional path, as shares of the time that is not settled"""
 
 KEPT_WINDOWS = 256
 """Sets of windows that are kept for all filters, which begin alike and come to a few; each takes
-some 30 kB"""
+some 50 kB"""
 
 
 @dataclass(slots=True)
@@ -67,7 +69,7 @@ class RecentSamples:
             count += 1
         return count
 
-    def path(self, settled: int, measured: int) -> list[int]:
+    def path(self, settled: int, measured: int) -> tuple[int, ...]:
         """Return the places to look at: all that are settled, and some of the newer ones.
 
         Parameters
@@ -77,23 +79,59 @@ class RecentSamples:
 
         Returns
         -------
-        list of int
+        tuple of int
             Ages, as how many samples came after each.
         """
-        newest = len(self.waiting) - 1
-        newer = max(newest - max(settled, measured), 0)
-        return [
-            *(newest - place for place in range(settled)),
-            *sorted({round(share * newer) for share in PATH}, reverse=True),
-        ]
+        return _path(len(self.waiting) - 1, settled, max(settled, measured))
 
-    def smoothed(self, ages: Sequence[int]) -> Estimate:
+    def smoothed(self, ages: tuple[int, ...]) -> Estimate:
         """Estimate the tensions at samples of these ages, the oldest first."""
         count = min(len(self._buffer), REACH + ages[0])
-        windows = _windows(count, tuple(ages))
+        windows = _windows(count, ages, self._signals)
         return windows.estimate(self._buffer.newest(count), self._stddev)
 
 
 @lru_cache(KEPT_WINDOWS)
-def _windows(count: int, ages: tuple[int, ...]) -> Windows:
-    return Windows(count, np.array(ages))
+def _path(newest: int, settled: int, known: int) -> tuple[int, ...]:
+    newer = max(newest - known, 0)
+    return (
+        *range(newest, newest - settled, -1),
+        *sorted({round(share * newer) for share in PATH}, reverse=True),
+    )
+
+
+@lru_cache(KEPT_WINDOWS)
+def _windows(count: int, ages: tuple[int, ...], signals: int) -> Windows:
+    return Windows(count, np.array(ages), signals)
+
+
+class SampleBuffer:
+    """The newest samples of some signals, in a row.
+
+    Parameters
+    ----------
+    signals : int
+        How many signals there are.
+    """
+
+    def __init__(self, signals: int) -> None:
+        self._values: NDArray[np.float64] = np.zeros((signals, 4 * REACH))
+        self._end = 0
+
+    def __len__(self) -> int:
+        return self._end
+
+    def append(self, sample: Sequence[float], kept: int) -> None:
+        """Append a sample of each signal; of those before it at least so many are kept."""
+        if self._end == self._values.shape[1]:
+            kept = min(kept, self._end)
+            if 2 * kept > self._end:
+                self._values = np.pad(self._values, ((0, 0), (0, self._end)))
+            self._values[:, :kept] = self._values[:, self._end - kept : self._end]
+            self._end = kept
+        self._values[:, self._end] = sample
+        self._end += 1
+
+    def newest(self, count: int) -> NDArray[np.float64]:
+        """Return the newest samples, shape ``(signals, count)``."""
+        return self._values[:, self._end - count : self._end]

@@ -17,7 +17,6 @@ from ..tensions import Tensions, check_tensions, taut_slip
 from .consistency import Consistency
 from .ensemble import Ensemble, MemberSlips
 from .lagged import LaggedFilter, check_least, check_stddev, drawn_to
-from .members import follow
 from .recent import Sample
 from .scores import Boundary, Reading
 from .smoothing import Estimate
@@ -148,8 +147,7 @@ class StickSlipFilter(LaggedFilter[FilterState, Floats]):
         self, estimate: Estimate, loads: list[Load], start: Floats
     ) -> tuple[Floats, Sequence[Floats]]:
         paths = self._ensemble.tensions(estimate)
-        slips = self._ensemble.slips(paths, loads)
-        return paths, follow(slips, start, self._ensemble.stop)
+        return paths, self._ensemble.follow(paths, loads, start)
 
     def _state(
         self,
