@@ -50,7 +50,10 @@ class Excess:
         self._crossing, self._tensions = crossing, tensions
         self.at_joints = at_joints
         self.springs = [design.stiffness for design in arm.designs]
-        self._stiffness = np.array(self.springs)
+        self._stiffness = np.diag(self.springs)
+        count = np.arange(len(self.springs))
+        self._farther = np.maximum.outer(count, count)
+        self._before = np.tri(len(count))
         self.levers = [design.cable_lever for design in arm.designs]
         self._angles: list[float] | None = None
         """Where they were that"""
@@ -72,24 +75,8 @@ class Excess:
 
     def at(self, angles: list[float]) -> Look:
         """Look at bend angles in rad."""
-        friction = self.arm.cable_friction_coefficient
-        at_joints, pairs, turning = self.at_joints, self._pairs, self._turning
-        if friction:
-            way = self._angles or angles, angles
-            at_joints = transmitted_after(self.arm, self._tensions, way, at_joints)
-            pairs = self._pairs_of(at_joints)
-            turning = self._turning_of(pairs)
-        turns = []
-        tilt = 0.0
-        for angle in angles:
-            tilt += angle
-            turns.append(cmath.rect(1.0, tilt))
-        beyond = 0.0j
-        turned = []
-        for own, turn in zip(reversed(self.carried.turning), reversed(turns), strict=True):
-            beyond += own * turn
-            turned.append(beyond)
-        turned.reverse()
+        at_joints, pairs, turning = self._cables_at(angles)
+        turns, turned = self._turned(angles)
         moments = [
             pull + dead.real - spring * angle
             for pull, dead, spring, angle in zip(
@@ -97,6 +84,54 @@ class Excess:
             )
         ]
         return Look(self, angles, turns, turned, moments, pairs, at_joints)
+
+    def flow(self, angles: list[float], leaning: list[float]) -> list[float]:
+        """Return θ' in N m of all joints by the rule of `flow`, at bend angles in rad.
+
+        Parameters
+        ----------
+        leaning : list of float
+            The side to which a joint does not move, since it is at its stop; 0 if there is none.
+        """
+        # Without a `Look`, which would take as long again.
+        _, pairs, turning = self._cables_at(angles)
+        turns, turned = self._turned(angles)
+        found, laws, springs = [], self._laws, self.springs
+        for joint, turn in enumerate(turns):
+            moment = turning[joint] + turned[joint].real - springs[joint] * angles[joint]
+            side = -1.0 if moment < 0.0 else 1.0
+            velocity = 0.0
+            if side != leaning[joint]:
+                kept = laws.get((joint, side))
+                if kept is None or kept[3] is not pairs[joint]:
+                    kept = self.law(joint, side, pairs[joint])
+                excess = side * moment - kept[1] * kept[0].at(turn.real, side * turn.imag)[0]
+                if excess > 0.0:
+                    velocity = side * excess
+            found.append(velocity)
+        return found
+
+    def _cables_at(self, angles: list[float]) -> tuple[AtJoints, list[Tensions], list[float]]:
+        """Return the tensions at the joints, the pair at each, and the M that they make."""
+        if not self.arm.cable_friction_coefficient:
+            return self.at_joints, self._pairs, self._turning
+        way = self._angles or angles, angles
+        at_joints = transmitted_after(self.arm, self._tensions, way, self.at_joints)
+        pairs = self._pairs_of(at_joints)
+        return at_joints, pairs, self._turning_of(pairs)
+
+    def _turned(self, angles: list[float]) -> tuple[list[complex], list[complex]]:
+        """Return e^{jΘ_i} of each unit and q_i, of which the dead load's moment is Re q_i."""
+        turns, tilt = [], 0.0
+        for angle in angles:
+            tilt += angle
+            turns.append(cmath.rect(1.0, tilt))
+        turned, beyond = [], 0.0j
+        for own, turn in zip(reversed(self.carried.turning), reversed(turns), strict=True):
+            beyond += own * turn
+            turned.append(beyond)
+        turned.reverse()
+        return turns, turned
 
     def remember(self, look: Look) -> None:
         """Take it that the arm has come there, as the friction of the cables remembers."""
@@ -159,18 +194,18 @@ class Excess:
             ]
         return found
 
-    def jacobian(self, look: Look, moving: dict[int, float], by: list[int]) -> Floats:
-        """∂f/∂θ in N·m/rad, of the joints that move, by joint and side, by those of `by`."""
-        joints, others = np.array(list(moving))[:, None], np.array(by)
+    def jacobian(self, look: Look, sides: dict[int, float]) -> Floats:
+        """∂f/∂θ in N·m/rad of some joints, by their sides: a row for each, by all joints."""
+        joints = list(sides)
         turned = np.array([one.imag for one in look.turned])
-        slopes = np.array([look.capacity(i, side)[1] for i, side in moving.items()])
-        rows: Floats = -turned[np.maximum(joints, others)]
-        rows -= slopes[:, None] * (others <= joints)
-        rows -= self._stiffness[joints] * (others == joints)
+        slopes = np.array([look.capacity(joint, side)[1] for joint, side in sides.items()])
+        rows: Floats = -turned.take(self._farther.take(joints, 0))
+        rows -= slopes[:, None] * self._before.take(joints, 0)
+        rows -= self._stiffness.take(joints, 0)
         if self.arm.cable_friction_coefficient:
-            gains = np.array([self.by_tensions(i, side, look) for i, side in moving.items()])
+            gains = np.array([self.by_tensions(i, side, look) for i, side in sides.items()])
             by_angle = by_angles(self.arm, self._tensions, look.angles, look.at_joints)
-            rows += (gains[:, None, :] @ by_angle[joints[:, 0]])[:, 0, others]
+            rows += (gains[:, None, :] @ by_angle[joints])[:, 0]
         return rows
 
 
@@ -218,23 +253,6 @@ class Look:
             self.moments[joint] - side * self.capacity(joint, side)[0]
             for joint, side in sides.items()
         ]
-
-    def flow(self, leaning: list[float]) -> list[float]:
-        """Return θ' in N m of all joints by the rule of `flow`.
-
-        Parameters
-        ----------
-        leaning : list of float
-            The side to which a joint does not move, since it is at its stop; 0 if there is none.
-        """
-        found = []
-        for joint, (moment, stopped) in enumerate(zip(self.moments, leaning, strict=True)):
-            side = -1.0 if moment < 0.0 else 1.0
-            excess = 0.0
-            if side != stopped:
-                excess = side * moment - self.capacity(joint, side)[0]
-            found.append(side * excess if excess > 0.0 else 0.0)
-        return found
 
     def drive(self, joint: int) -> tuple[float, float, float]:
         """Side to which M drives, the excess |M| − K in N m, and K."""

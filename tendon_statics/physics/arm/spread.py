@@ -48,7 +48,7 @@ def spread_after(excess: Excess, settled: Settled, before: Floats) -> Floats:
     if not at:
         return after
     rest = [joint for joint in range(count) if joint not in at]
-    by_all = excess.jacobian(look, at_limit, list(range(count)))
+    by_all = excess.jacobian(look, at_limit)
     by_tension = np.array(
         [excess.by_base_tensions(joint, side, look) for joint, side in at_limit.items()]
     )
