@@ -15,8 +15,8 @@ def runs(monkeypatch):
     found = []
     first = flow.first_stride
 
-    def noted(leg):
-        found.append(first(leg))
+    def noted(*asked):
+        found.append(first(*asked))
         return found[-1]
 
     monkeypatch.setattr(flow, 'first_stride', noted)
@@ -35,7 +35,7 @@ def drawn(seed, units, cable_friction=0.0):
 def led_in_legs(monkeypatch, tracker, *pull):
     """Return the state after short legs alone."""
     with monkeypatch.context() as changed:
-        changed.setattr(flow, 'first_stride', lambda _: None)
+        changed.setattr(flow, 'first_stride', lambda *_: None)
         changed.setattr(flow, 'FAR', 0.03)
         changed.setattr(legs, 'FAR', 0.03)
         return tracker.update(*pull)

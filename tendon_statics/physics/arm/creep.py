@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .linear_motion import LinearMotion
+from .linear_motion import LinearMotion, largest
 from .motion import Motion
 
 Floats = NDArray[np.float64]
@@ -63,7 +63,7 @@ def creep(motion: Motion, linear: LinearMotion) -> bool:
         look = motion.after(way)
         velocity = motion.velocity(look)
         amiss = to_rest @ velocity
-        if abs(amiss).max() <= CLOSE:
+        if largest(amiss) <= CLOSE:
             break
         way = way + amiss
     else:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import cmath
-from typing import Any
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..contact.law import LoadedLaw
+from ..contact.law import LoadedLaw, State
 from ..slip import Slip
 from ..tensions import Tensions
 from .arm import Arm
@@ -50,10 +50,6 @@ class Excess:
         self._crossing, self._tensions = crossing, tensions
         self.at_joints = at_joints
         self.springs = [design.stiffness for design in arm.designs]
-        self._stiffness = np.diag(self.springs)
-        count = np.arange(len(self.springs))
-        self._farther = np.maximum.outer(count, count)
-        self._before = np.tri(len(count))
         self.levers = [design.cable_lever for design in arm.designs]
         self._angles: list[float] | None = None
         """Where they were that"""
@@ -115,8 +111,11 @@ class Excess:
         """Return the tensions at the joints, the pair at each, and the M that they make."""
         if not self.arm.cable_friction_coefficient:
             return self.at_joints, self._pairs, self._turning
-        way = self._angles or angles, angles
-        at_joints = transmitted_after(self.arm, self._tensions, way, self.at_joints)
+        start = self._angles or angles
+        if all(new * old >= old * old for new, old in zip(angles, start, strict=True)):
+            # Bands that all widen push nothing.
+            return self.at_joints, self._pairs, self._turning
+        at_joints = transmitted_after(self.arm, self._tensions, (start, angles), self.at_joints)
         pairs = self._pairs_of(at_joints)
         return at_joints, pairs, self._turning_of(pairs)
 
@@ -163,50 +162,55 @@ class Excess:
             self._laws[joint, side] = kept = slip.law, scale, slip.share, pair
         return kept
 
-    def by_tensions(self, joint: int, side: float, look: Look) -> list[float]:
-        """∂f/∂T in m of one joint by the tension at it of every cable."""
-        crossing, design = self._crossing[joint], self.arm.designs[joint]
-        law, _, share, _ = self.law(joint, side, look.pairs[joint])
-        turn = look.turns[joint]
-        state = law.at(turn.real, side * turn.imag)
-        held = side * design.ball_radius * (state[0] - share * law.by_share(state))
-        found = [0.0] * len(self.arm.cables)
-        for index in crossing.left:
-            found[index] = -design.cable_lever - held
-        for index in crossing.right:
-            found[index] = design.cable_lever - held
-        for index, lever in crossing.leverage:
-            found[index] = lever * design.cable_lever - held
+    def by_tensions(self, sides: dict[int, float], look: Look) -> Floats:
+        """∂f/∂T in m of some joints, by their sides: a row for each, by the tension of each cable.
+
+        By that at the joint.
+        """
+        held = []
+        for joint, side in sides.items():
+            law, _, share, _ = self.law(joint, side, look.pairs[joint])
+            state = look.state(joint, side)
+            grip = state[0] - share * law.by_share(state)
+            held.append(side * self.arm.designs[joint].ball_radius * grip)
+        levers = self.arm.cable_levers.take(list(sides), 0)
+        found: Floats = levers - np.array(held)[:, None] * (levers != 0.0)
         return found
 
-    def by_base_tensions(self, joint: int, side: float, look: Look) -> list[float]:
-        """∂f/∂T in m of one joint by the tension at the base of every cable.
+    def by_base_tensions(self, sides: dict[int, float], look: Look) -> Floats:
+        """∂f/∂T in m of some joints, by the tension at the base of each cable.
 
         What friction has kept at a guide from an earlier sample is taken to be as unsure as the
         sample of now, with the same error all along.
         """
-        found = self.by_tensions(joint, side, look)
+        found = self.by_tensions(sides, look)
         if self.arm.cable_friction_coefficient:
-            pulls = zip(look.at_joints[joint], self._tensions, strict=True)
-            found = [
-                gain * (at / tension if tension else 1.0)
-                for gain, (at, tension) in zip(found, pulls, strict=True)
-            ]
+            at_base = np.array(self._tensions)
+            at_joints = np.array([look.at_joints[joint] for joint in sides])
+            found *= np.divide(at_joints, at_base, where=at_base > 0.0, out=np.ones_like(found))
         return found
 
     def jacobian(self, look: Look, sides: dict[int, float]) -> Floats:
         """∂f/∂θ in N·m/rad of some joints, by their sides: a row for each, by all joints."""
         joints = list(sides)
+        farther, before = _order(len(look.angles))
         turned = np.array([one.imag for one in look.turned])
         slopes = np.array([look.capacity(joint, side)[1] for joint, side in sides.items()])
-        rows: Floats = -turned.take(self._farther.take(joints, 0))
-        rows -= slopes[:, None] * self._before.take(joints, 0)
-        rows -= self._stiffness.take(joints, 0)
+        rows: Floats = -turned.take(farther.take(joints, 0))
+        rows -= slopes[:, None] * before.take(joints, 0)
+        rows[range(len(joints)), joints] -= [self.springs[joint] for joint in joints]
         if self.arm.cable_friction_coefficient:
-            gains = np.array([self.by_tensions(i, side, look) for i, side in sides.items()])
+            gains = self.by_tensions(sides, look)
             by_angle = by_angles(self.arm, self._tensions, look.angles, look.at_joints)
             rows += (gains[:, None, :] @ by_angle[joints])[:, 0]
         return rows
+
+
+@cache
+def _order(count: int) -> tuple[NDArray[np.intp], Floats]:
+    """Return the farther of two joints, and 1 where the second is not the farther; else 0."""
+    joints = np.arange(count)
+    return np.maximum.outer(joints, joints), np.tri(count)
 
 
 class Look:
@@ -241,11 +245,16 @@ class Look:
         """K in N m for slipping to a side, and side ∂K/∂Θ."""
         known = self._capacities.get((joint, side))
         if known is None:
-            law, scale, _, _ = self._excess.law(joint, side, self.pairs[joint])
-            turn = self.turns[joint]
-            state: tuple[Any, ...] = law.at(turn.real, side * turn.imag)
+            _, scale, _, _ = self._excess.law(joint, side, self.pairs[joint])
+            state = self.state(joint, side)
             known = self._capacities[joint, side] = scale * state[0], scale * state[1]
         return known
+
+    def state(self, joint: int, side: float) -> State:
+        """Return what the contact law of a joint knows for slipping to a side."""
+        law, _, _, _ = self._excess.law(joint, side, self.pairs[joint])
+        turn = self.turns[joint]
+        return law.at(turn.real, side * turn.imag)
 
     def velocities(self, sides: dict[int, float]) -> list[float]:
         """Return f = M − side K in N m of some joints, by their sides."""

@@ -27,6 +27,7 @@ from ..errors import ArmError
 from .creep import creep
 from .excess import Excess, Look
 from .legs import FAR, Leg
+from .linear_motion import largest
 from .motion import Motion
 from .rest import TINY, come_to_rest
 from .strides import first_stride, go_strides
@@ -67,7 +68,7 @@ def settle(excess: Excess, angles: list[float]) -> Settled:
             leg = Leg(motion, far)
         except np.linalg.LinAlgError:
             break
-        stride = first_stride(leg) if may_stride else None
+        stride = first_stride(leg, len(angles)) if may_stride else None
         may_stride = stride is None
         if stride:
             go_strides(motion, stride)
@@ -88,6 +89,6 @@ def _missed(motion: Motion, leg: Leg) -> float:
     if not leg.may_rest:
         return math.inf
     way = leg.linear.to_rest
-    if leg.rest_time < math.inf and abs(way).max() > TINY:
+    if leg.rest_time < math.inf and largest(way) > TINY:
         return NO_REST
     return come_to_rest(motion, way, leg.jacobian)

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .excess import Look
-from .linear_motion import END, NODE, SQUARES, LinearMotion, Path
+from .linear_motion import END, NODE, SQUARES, LinearMotion, Path, largest
 from .motion import TOLERANCE, Motion
 from .rest import NEAR
 
@@ -83,8 +83,8 @@ class Leg:
         self._rows = motion.slopes(self._sides).take(list(motion.moving), 1)
         self.jacobian: Floats = self._rows.take(list(motion.moving), 0)
         self.linear = LinearMotion(self.jacobian, motion.velocity(motion.look))
-        reach = abs(self.linear.to_rest).max()
-        self.may_rest = bool(self.linear.growth < 0.0 and reach <= NEAR)
+        reach = largest(self.linear.to_rest)
+        self.may_rest = self.linear.growth < 0.0 and reach <= NEAR
         self.rest_time = math.inf
         if self.may_rest:
             self.rest_time = self._changes.first(self.linear.path(self.linear.times()))
@@ -101,13 +101,13 @@ class Leg:
         for trial in range(MOST_TRIALS):
             course = linear.course(end)
             way = course.way
-            if not abs(way).max() <= 2.0 * FAR:
+            if not largest(way) <= 2.0 * FAR:
                 end *= 0.1
                 continue
             if self.may_rest:  # so that nothing changes before the end, were the motion linear
                 look = motion.after(way)
                 bend = linear.bend(end, motion.velocity(look) - linear.velocity_at(way))
-                if abs(bend).max() <= TOLERANCE:
+                if largest(bend) <= TOLERANCE:
                     break
             node = motion.after(course.node)
             remainder = motion.velocity(node) - linear.velocity_at(course.node)
@@ -126,14 +126,14 @@ class Leg:
             return 0.0
         motion.take(look)
         motion.change()
-        far: float = 0.9 * float(abs(way).max()) * max(error, 1e-4) ** -0.25
+        far: float = 0.9 * largest(way) * max(error, 1e-4) ** -0.25
         return min(FAR, far)
 
     def _amiss(self, time: float, way: Floats, velocity: Floats, defect: Floats) -> float:
         """Return the error of a way, as a share of what is accepted, from that of its velocity."""
         bend = self.linear.bend(time, defect)
         aside, along = aside_and_along(bend.tolist(), velocity.tolist())
-        return max(aside / LEG_ERROR, along / (ALONG * float(abs(way).max())))
+        return max(aside / LEG_ERROR, along / (ALONG * largest(way)))
 
 
 def aside_and_along(error: list[float], velocity: list[float]) -> tuple[float, float]:
@@ -169,7 +169,8 @@ class _Changes:
                 at_first.append(look.drive(joint)[1])
         self._at_first: Floats = np.array(at_first)[:, None]
         self._by_way: Floats = np.array(list(sides.values()))[:, None] * rows
-        self._by_way[list(moving)] = np.diag(list(moving.values()))
+        self._by_way[list(moving)] = 0.0
+        self._by_way[list(moving), range(len(moving))] = list(moving.values())
         self._sides: Floats = np.array(list(moving.values()))[:, None]
 
     def first(self, path: Path) -> float:
@@ -207,25 +208,22 @@ class _Changes:
     def _first(self, path: Path, signals: Floats) -> tuple[float, int] | None:
         """Return when the first change is, and the place in the path's times after it."""
         times, ways, velocities = path
+        happened = signals[:, 1:] > 0.0
+        there = happened.any(axis=0)
         forwards = self._sides * velocities
         if forwards.min() < 0.0:
-            fastest = abs(velocities).max(axis=0)
+            below = -SMALL * abs(velocities).max(axis=0) - forwards
             ahead = self._sides * ways
             back = (np.maximum.accumulate(ahead, axis=1) - ahead).max(axis=1, keepdims=True)
-            falls = back > TOLERANCE
-            if falls.any():
-                falls = np.repeat(falls, len(times), axis=1)
-                falls[:, 1:] &= forwards[:, 1:] < forwards[:, :-1]
-                falls[:, 0] &= forwards[:, 0] < 0.0
-                falling = np.where(falls, -forwards - SMALL * fastest, -fastest)
-                signals = np.concatenate((signals, falling))
-        happened = signals[:, 1:] > 0.0
-        if not happened.any():
+            falls = (below[:, 1:] > 0.0) & (below[:, 1:] > below[:, :-1]) & (back > TOLERANCE)
+            there |= falls.any(axis=0)
+        if not there.any():
             return None
-        place = int(happened.any(axis=0).argmax()) + 1
+        place, share = int(there.argmax()) + 1, 1.0
         happens = happened[:, place - 1]
-        was, now = signals[happens, place - 1], signals[happens, place]
-        shares = np.where(was < 0.0, was / (was - now), 1.0)
-        share = min(float(shares.min()) + JUST_BEYOND, 1.0)
+        if happens.any():
+            was, now = signals[happens, place - 1], signals[happens, place]
+            shares = np.where(was < 0.0, was / (was - now), 1.0)
+            share = min(float(shares.min()) + JUST_BEYOND, 1.0)
         before = times[place - 1]
         return float(before + share * (times[place] - before)), place

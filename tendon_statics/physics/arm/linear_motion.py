@@ -43,6 +43,12 @@ NODE, END = 15, 20
 SQUARES, CUBES = PARTS**2, PARTS**3
 
 
+def largest(values: Any) -> float:
+    """Return the largest size in a small array, for which this is fast."""
+    found: float = max(map(abs, values.tolist()))
+    return found
+
+
 class Path(NamedTuple):
     """Where a motion is at some times: a column for each."""
 
@@ -104,10 +110,11 @@ class LinearMotion:
             rates, of_modes = self._decompose(jacobian + COUPLING * abs(jacobian).max() * ends)
         self.rates = rates if rates.all() else np.where(rates == 0.0, NO_RATE, rates)
         self._ways = of_modes / self.rates
-        self.growth = float(rates.real.max())
-        self.decay = -min(float(rates.real.min()), 0.0)
+        real = self.rates.real.tolist()
+        self.growth: float = max(real)
+        self.decay: float = max(-min(real), 0.0)
         self.to_rest: Floats = -(self.modes @ self._ways).real
-        self._slow = float(abs(self.rates.real).min())
+        self._slow: float = min(map(abs, real))
 
     def _decompose(self, jacobian: Floats) -> tuple[Any, Any]:
         """Return the rates of the modes, and f in modes.
@@ -121,15 +128,14 @@ class LinearMotion:
         rates, self.modes = np.linalg.eig(jacobian)
         self.inverse = np.linalg.inv(self.modes)
         of_modes = self.inverse @ self.velocity
-        left = abs(self.modes @ of_modes - self.velocity).max()
-        if not left <= UNSOUND * abs(self.velocity).max():
+        if not largest(self.modes @ of_modes - self.velocity) <= UNSOUND * largest(self.velocity):
             raise np.linalg.LinAlgError('too few eigenvectors')
         return rates, of_modes
 
     def times(self) -> Floats:
         """Return the start and times from almost at once to where it has died away."""
         # Where nothing grows or dies away, time is measured by the way: in that of a radian.
-        fast = float(max(abs(self.rates).max(), abs(self.velocity).max()))
+        fast = max(largest(self.rates), largest(self.velocity))
         span = 64.0 * fast / self._slow
         count = int(math.log(span) / math.log(RATIO)) + 3 if span < MOST_SPAN else len(TIMES)
         return np.asarray(0.125 / fast * TIMES[:count], np.float64)
@@ -150,7 +156,7 @@ class LinearMotion:
 
     def far(self, way: float) -> float:
         """Return about when it would be as far as a way, were it linear; infinite if never."""
-        times = np.asarray(way / abs(self.velocity).max() * DOUBLINGS, np.float64)
+        times = np.asarray(way / largest(self.velocity) * DOUBLINGS, np.float64)
         gone = abs(self.ways(times)).max(axis=0)
         there = np.flatnonzero(gone > way)
         if not len(there):
@@ -180,7 +186,7 @@ class LinearMotion:
     def _phases(self, times: Floats) -> Any:
         """λ t of all modes, a column for each time."""
         phases = self.rates[:, None] * times
-        if self.growth * times[-1] > MOST_GROWTH:
+        if self.growth > 0.0 and self.growth * times[-1] > MOST_GROWTH:
             phases = np.where(phases.real > MOST_GROWTH, MOST_GROWTH, phases)
         return phases
 

@@ -83,11 +83,11 @@ class Motion:
         """Whether a joint that is driven to a side is at its stop."""
         return side * self.look.angles[joint] >= self.stops[joint]
 
-    def leaning(self) -> list[float]:
-        """Return the side on which each joint is at its stop; 0 where it is not."""
+    def leaning(self, angles: list[float]) -> list[float]:
+        """Return the side on which each joint is at its stop, elsewhere; 0 where it is not."""
         return [
             math.copysign(1.0, angle) if abs(angle) >= stop else 0.0
-            for angle, stop in zip(self.look.angles, self.stops, strict=True)
+            for angle, stop in zip(angles, self.stops, strict=True)
         ]
 
     def sides(self) -> dict[int, float]:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .excess import Look
+from .linear_motion import largest
 from .motion import ROUNDING, Motion
 
 Floats = NDArray[np.float64]
@@ -17,6 +18,9 @@ NEAR = 0.02
 
 CLOSE = 1e-4
 """Way in rad by which the motion may not be linear, so that it goes where a linear one does"""
+
+SLOW = 0.02
+"""Share of a step of Newton's method that the next may be with the same Jacobian"""
 
 TINY = 1e-6
 """Way in rad that is left to Newton's method in any case"""
@@ -36,10 +40,9 @@ def come_to_rest(motion: Motion, way: Floats, jacobian: Floats) -> float:
         Of the motion, where it is.
     """
     total = np.zeros(len(way))
-    first = abs(way).max()
     for index in range(12):
         total = total + way
-        if not abs(total).max() <= 2.0 * NEAR:
+        if not largest(total) <= 2.0 * NEAR:
             break
         look = motion.after(total)
         if any(abs(look.angles[joint]) > motion.stops[joint] for joint in motion.moving):
@@ -48,11 +51,12 @@ def come_to_rest(motion: Motion, way: Floats, jacobian: Floats) -> float:
         if _is_small(motion, velocity, look):
             motion.come_to_rest(look)
             return 0.0
-        if index:
+        before, way = largest(way), -_solved(jacobian, velocity)
+        if index == 0 and not largest(way) <= CLOSE:
+            return largest(way) / before
+        if index and largest(way) > SLOW * before:
             jacobian = motion.jacobian(look)
-        way = -_solved(jacobian, velocity)
-        if index == 0 and not abs(way).max() <= CLOSE:
-            return float(abs(way).max() / first)
+            way = -_solved(jacobian, velocity)
     return math.inf
 
 

@@ -49,9 +49,7 @@ def spread_after(excess: Excess, settled: Settled, before: Floats) -> Floats:
         return after
     rest = [joint for joint in range(count) if joint not in at]
     by_all = excess.jacobian(look, at_limit)
-    by_tension = np.array(
-        [excess.by_base_tensions(joint, side, look) for joint, side in at_limit.items()]
-    )
+    by_tension = excess.by_base_tensions(at_limit, look)
     try:
         inverse = -np.linalg.inv(by_all[:, at])
     except np.linalg.LinAlgError:
@@ -60,12 +58,10 @@ def spread_after(excess: Excess, settled: Settled, before: Floats) -> Floats:
     found = of_tension @ of_tension.T
     if rest:
         of_rest = inverse @ by_all[:, rest]
-        across = of_rest @ after[rest][:, rest]
+        across = of_rest @ after[np.ix_(rest, rest)]
         found = found + across @ of_rest.T
-        for joint, row in zip(at, across, strict=True):
-            after[joint, rest] = after[rest, joint] = row
-    for joint, row in zip(at, found, strict=True):
-        after[joint, at] = row
+        after[np.ix_(at, rest)], after[np.ix_(rest, at)] = across, across.T
+    after[np.ix_(at, at)] = found
     return after
 
 

@@ -43,6 +43,10 @@ MOST_STRIDES = 200
 MOST_LONGER = 5.0
 """Than one stride the next"""
 
+SAFE = 0.7
+"""Share of a stride whose error would just be accepted, that the next is made: what bends sharply
+ahead is not foreseen"""
+
 PASSING = 0.15
 """Way in rad of a stride at the most if a joint comes through the straight on it, where cables
 with friction forget"""
@@ -50,14 +54,15 @@ with friction forget"""
 PARTS = (0.25, 0.5, 0.75)
 """Of a stride, between which its way is taken for straight where that counts"""
 
-ERROR_ASIDE, ERROR_ALONG = 1.5e-4, 1e-3
-"""Error of a stride in rad that is accepted, across the motion and along it: how fast it goes is
-of no account, but the velocity at the end tells what is along it for a short way only"""
+ERROR_ASIDE, ERROR_ALONG = 3e-5, 1.5e-4
+"""Error of a stride in rad that is accepted, for each joint of the arm, across the motion and
+along it: how fast it goes is of no account, but the velocity at the end tells what is along it for
+a short way only"""
 
 
-def first_stride(leg: Leg) -> float | None:
+def first_stride(leg: Leg, joints: int) -> float | None:
     """Return the time of a stride to try in the place of a leg; None if the leg is better."""
-    if leg.may_rest:
+    if leg.may_rest or joints <= FEW:
         return None
     time = leg.linear.far(SHORT)
     return time if leg.linear.decay * time <= STIFF else None
@@ -72,14 +77,15 @@ def go_strides(motion: Motion, time: float) -> None:
         Of the first one, to try.
     """
     angles = motion.look.angles
-    velocities = motion.flow(angles, motion.leaning())
+    velocities = motion.flow(angles, motion.leaning(angles))
     for _ in range(MOST_STRIDES):
         end, last, error = _stride(motion, angles, velocities, time)
         far = max([abs(new - old) for old, new in zip(angles, end, strict=True)])
         aside, along = aside_and_along(error, last)
         passes = motion.rubs and any(old * new < 0.0 for old, new in zip(angles, end, strict=True))
         most = PASSING if passes else 2.0 * FAR
-        share = max(aside / ERROR_ASIDE, along / ERROR_ALONG, (far / most) ** 3, 1e-6)
+        amiss = max(aside / ERROR_ASIDE, along / ERROR_ALONG) / len(angles)
+        share = max(amiss, (far / most) ** 3, 1e-6)
         faster = 1.0
         if share <= 1.0:
             before, after = max(map(abs, velocities)), max(map(abs, last))
@@ -90,18 +96,17 @@ def go_strides(motion: Motion, time: float) -> None:
                 break  # beyond where some come to rest, which legs find exactly
             if passes:
                 last = _gone_along(motion, time, end, (velocities, last))
-            else:
+            elif motion.rubs:
                 motion.take(motion.look_at(end))
-            moving = sum(map(bool, last))
-            if moving <= FEW and far * after <= NEAR * (before - after):
-                break
             angles, velocities = end, last
+            if sum(map(bool, last)) <= FEW and far * after <= NEAR * (before - after):
+                break
             faster = max(1.0, after * time / far)
-        longer = min(0.9 * share ** (-1.0 / 3.0), MOST_LONGER)
+        longer = min(SAFE * share ** (-1.0 / 3.0), MOST_LONGER)
         if far * longer < LEAST:
             break
         time *= max(min(longer, FAR / far) / faster, 1.0 / MOST_LONGER)
-    motion.set_out_from(motion.look)
+    motion.set_out_from(motion.look_at(angles))
 
 
 def _stride(
@@ -111,7 +116,7 @@ def _stride(
 
     What meets its stop has neither.
     """
-    leaning, stops = motion.leaning(), motion.stops
+    leaning, stops = motion.leaning(angles), motion.stops
 
     def within(angles: list[float]) -> list[float]:
         return [
@@ -157,4 +162,4 @@ def _gone_along(
         angles = path.way(part * time, 1)
         motion.take(motion.look_at(np.clip(angles, -stops, stops).tolist()))
     motion.take(motion.look_at(end))
-    return motion.flow(end, motion.leaning())
+    return motion.flow(end, motion.leaning(end))
