@@ -12,16 +12,19 @@ to first order: Hairer and Wanner, "Solving Ordinary Differential Equations II",
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
+from .excess import Look
 from .linear_motion import LinearMotion, largest
 from .motion import Motion
 
 Floats = NDArray[np.float64]
 
-FAR_ALONG = 0.05
-"""s in rad, of the joint that moves most"""
+FAR_ALONG = (0.05, 0.02)
+"""s in rad, of the joint that moves most, to try"""
 
 SLOW = 0.3
 """Share of the rate of the others at which the slow mode may grow or die away at the most"""
@@ -48,31 +51,37 @@ def creep(motion: Motion, linear: LinearMotion) -> bool:
         return False
     slow = int(rates.argmax())
     soon = -float(np.delete(rates, slow).max())
+    if abs(rates[slow]) > SLOW * soon:
+        return False
     # u is scaled so that s is the way of the joint that moves most.
     mode, dual = linear.modes[:, slow], linear.inverse[slow]
-    scale = float(np.copysign(abs(mode).max(), dual @ linear.velocity))
+    scale = math.copysign(largest(mode), dual @ linear.velocity)
     along, dual = mode / scale, dual * scale
-    fastest = soon * FAR_ALONG / SOON
-    if abs(rates[slow]) > SLOW * soon or dual @ linear.velocity > fastest:
-        return False
     gains = -1.0 / rates
     gains[slow] = 0.0
     to_rest: Floats = (linear.modes * gains) @ linear.inverse
-    way = FAR_ALONG * along
+    sides = np.array(list(motion.moving.values()))
+    for far in FAR_ALONG:
+        fastest = soon * far / SOON
+        if dual @ linear.velocity > fastest:
+            break
+        look = _led_along(motion, far * along, to_rest)
+        if look is None or motion.changes_at(look, CLOSE * soon):
+            continue
+        velocity = motion.velocity(look)
+        if 0.0 < dual @ velocity <= fastest and (sides * velocity >= 0.0).all():
+            motion.take(look)
+            motion.change()
+            return True
+    return False
+
+
+def _led_along(motion: Motion, way: Floats, to_rest: Floats) -> Look | None:
+    """Let all modes but the slow one come to rest about a way; None if they do not."""
     for _ in range(MOST_TRIALS):
         look = motion.after(way)
-        velocity = motion.velocity(look)
-        amiss = to_rest @ velocity
+        amiss = to_rest @ motion.velocity(look)
         if largest(amiss) <= CLOSE:
-            break
+            return look
         way = way + amiss
-    else:
-        return False
-    sides = np.array(list(motion.moving.values()))
-    if not 0.0 < dual @ velocity <= fastest or (sides * velocity < 0.0).any():
-        return False
-    if motion.changes_at(look, CLOSE * soon):
-        return False
-    motion.take(look)
-    motion.change()
-    return True
+    return None

@@ -116,33 +116,35 @@ def _stride(
 
     What meets its stop has neither.
     """
-    leaning, stops = motion.leaning(angles), motion.stops
-
-    def within(angles: list[float]) -> list[float]:
-        return [
-            angle if -stop <= angle <= stop else math.copysign(stop, angle)
-            for angle, stop in zip(angles, stops, strict=True)
-        ]
-
-    first = velocities
-    halfway = [x + 0.5 * time * v for x, v in zip(angles, first, strict=True)]
-    second = motion.flow(within(halfway), leaning)
-    later = [x + 0.75 * time * v for x, v in zip(angles, second, strict=True)]
-    third = motion.flow(within(later), leaning)
-    beyond = [
-        x + time * (2.0 * one + 3.0 * two + 4.0 * three) / 9.0
-        for x, one, two, three in zip(angles, first, second, third, strict=True)
+    leaning, stops, first = motion.leaning(angles), motion.stops, velocities
+    second = motion.flow(_after(angles, first, 0.5 * time, stops), leaning)
+    third = motion.flow(_after(angles, second, 0.75 * time, stops), leaning)
+    mean = [
+        (2.0 * one + 3.0 * two + 4.0 * three) / 9.0
+        for one, two, three in zip(first, second, third, strict=True)
     ]
-    end = within(beyond)
+    end = _after(angles, mean, time, stops)
     fourth = motion.flow(end, leaning)
     errors = [
         time * (-5.0 * one + 6.0 * two + 8.0 * three - 9.0 * four) / 72.0
         for one, two, three, four in zip(first, second, third, fourth, strict=True)
     ]
-    for joint, (new, tried) in enumerate(zip(end, beyond, strict=True)):
-        if new != tried:
+    for joint, stop in enumerate(stops):
+        if mean[joint] and abs(end[joint]) == stop:
             fourth[joint] = errors[joint] = 0.0
     return end, fourth, errors
+
+
+def _after(
+    angles: list[float], velocities: list[float], time: float, stops: tuple[float, ...]
+) -> list[float]:
+    """Return the angles after a time at some velocities, within the stops."""
+    return [
+        angle
+        if -stop <= (angle := start + time * velocity) <= stop
+        else math.copysign(stop, angle)
+        for start, velocity, stop in zip(angles, velocities, stops, strict=True)
+    ]
 
 
 def _gone_along(
