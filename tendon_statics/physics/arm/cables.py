@@ -37,11 +37,10 @@ def crossings(arm: Arm) -> list[Crossing]:
     found = []
     for number, design in enumerate(arm.designs, start=1):
         there = [i for i, cable in enumerate(arm.cables) if cable.last_unit >= number]
-        levers = {}
-        for index in there:
-            cable = arm.cables[index]
-            offset = design.cable_offset if cable.offset is None else cable.offset
-            levers[index] = cable.sign * (design.ball_radius + offset) / design.cable_lever
+        levers = {
+            index: float(arm.cable_levers[number - 1, index]) / design.cable_lever
+            for index in there
+        }
         alike = all(abs(lever) == 1.0 for lever in levers.values())
         left, right = (
             tuple(i for i in there if arm.cables[i].sign == sign) for sign in (-1.0, 1.0)

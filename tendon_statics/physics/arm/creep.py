@@ -17,8 +17,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from .excess import Look
 from .linear_motion import LinearMotion, largest
+from .look import Look
 from .motion import Motion
 
 Floats = NDArray[np.float64]

@@ -8,12 +8,13 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..contact.law import LoadedLaw, State
+from ..contact.law import LoadedLaw
 from ..slip import Slip
 from ..tensions import Tensions
 from .arm import Arm
 from .cables import AtJoints, Crossing, by_angles, pair_at, transmitted_after
 from .carried import Carried
+from .look import Look
 
 Floats = NDArray[np.float64]
 
@@ -170,7 +171,7 @@ class Excess:
         held = []
         for joint, side in sides.items():
             law, _, share, _ = self.law(joint, side, look.pairs[joint])
-            state = look.state(joint, side)
+            _, _, state = look.capacity(joint, side)
             grip = state[0] - share * law.by_share(state)
             held.append(side * self.arm.designs[joint].ball_radius * grip)
         levers = self.arm.cable_levers.take(list(sides), 0)
@@ -211,61 +212,3 @@ def _order(count: int) -> tuple[NDArray[np.intp], Floats]:
     """Return the farther of two joints, and 1 where the second is not the farther; else 0."""
     joints = np.arange(count)
     return np.maximum.outer(joints, joints), np.tri(count)
-
-
-class Look:
-    """The joints of an arm at given bend angles.
-
-    Attributes
-    ----------
-    moments : list of float
-        M of each in N m.
-    """
-
-    __slots__ = (
-        *('_capacities', '_excess', 'angles', 'at_joints', 'moments', 'pairs', 'turned', 'turns'),
-    )
-
-    def __init__(
-        self,
-        excess: Excess,
-        angles: list[float],
-        turns: list[complex],
-        turned: list[complex],
-        moments: list[float],
-        pairs: list[Tensions],
-        at_joints: AtJoints,
-    ) -> None:
-        self._excess, self.angles = excess, angles
-        self._capacities: dict[tuple[int, float], tuple[float, float]] = {}
-        self.turns, self.turned, self.moments = turns, turned, moments
-        self.pairs, self.at_joints = pairs, at_joints
-
-    def capacity(self, joint: int, side: float) -> tuple[float, float]:
-        """K in N m for slipping to a side, and side ∂K/∂Θ."""
-        known = self._capacities.get((joint, side))
-        if known is None:
-            _, scale, _, _ = self._excess.law(joint, side, self.pairs[joint])
-            state = self.state(joint, side)
-            known = self._capacities[joint, side] = scale * state[0], scale * state[1]
-        return known
-
-    def state(self, joint: int, side: float) -> State:
-        """Return what the contact law of a joint knows for slipping to a side."""
-        law, _, _, _ = self._excess.law(joint, side, self.pairs[joint])
-        turn = self.turns[joint]
-        return law.at(turn.real, side * turn.imag)
-
-    def velocities(self, sides: dict[int, float]) -> list[float]:
-        """Return f = M − side K in N m of some joints, by their sides."""
-        return [
-            self.moments[joint] - side * self.capacity(joint, side)[0]
-            for joint, side in sides.items()
-        ]
-
-    def drive(self, joint: int) -> tuple[float, float, float]:
-        """Side to which M drives, the excess |M| − K in N m, and K."""
-        moment = self.moments[joint]
-        side = -1.0 if moment < 0.0 else 1.0
-        capacity = self.capacity(joint, side)[0]
-        return side, side * moment - capacity, capacity

@@ -25,9 +25,10 @@ import numpy as np
 
 from ..errors import ArmError
 from .creep import creep
-from .excess import Excess, Look
+from .excess import Excess
 from .legs import FAR, Leg
 from .linear_motion import largest
+from .look import Look
 from .motion import Motion
 from .rest import TINY, come_to_rest
 from .strides import first_stride, go_strides

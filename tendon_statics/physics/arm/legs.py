@@ -19,8 +19,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .excess import Look
 from .linear_motion import END, NODE, SQUARES, LinearMotion, Path, largest
+from .look import Look
 from .motion import TOLERANCE, Motion
 from .rest import NEAR
 

@@ -7,7 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from .excess import Excess, Look
+from .excess import Excess
+from .look import Look
 
 Floats = NDArray[np.float64]
 

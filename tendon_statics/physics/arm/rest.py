@@ -7,8 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from .excess import Look
 from .linear_motion import largest
+from .look import Look
 from .motion import ROUNDING, Motion
 
 Floats = NDArray[np.float64]
