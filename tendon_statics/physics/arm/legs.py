@@ -99,16 +99,16 @@ class Leg:
         time = self.rest_time if self.may_rest else linear.far(self._far)
         end, error = min(time, linear.lifetime), 0.0
         for trial in range(MOST_TRIALS):
-            course = linear.course(end)
-            way = course.way
+            way = linear.way(end)
             if not largest(way) <= 2.0 * FAR:
                 end *= 0.1
                 continue
             if self.may_rest:  # so that nothing changes before the end, were the motion linear
                 look = motion.after(way)
                 bend = linear.bend(end, motion.velocity(look) - linear.velocity_at(way))
-                if largest(bend) <= TOLERANCE:
+                if largest(bend) <= LEG_ERROR:
                     break
+            course = linear.course(end)
             node = motion.after(course.node)
             remainder = motion.velocity(node) - linear.velocity_at(course.node)
             remainder /= SQUARES[NODE]

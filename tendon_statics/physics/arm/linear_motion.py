@@ -150,6 +150,10 @@ class LinearMotion:
         of_modes = np.expm1(self._phases(times)) * self._ways[:, None]
         return np.asarray((self.modes @ of_modes).real, np.float64)
 
+    def way(self, time: float) -> Floats:
+        """Return the way up to a time, were it linear."""
+        return self.ways(np.array([time]))[:, 0]
+
     def course(self, end: float) -> Course:
         """Return the motion up to a time, were it linear, and what a remainder makes of it."""
         return Course(self, end)
@@ -196,8 +200,6 @@ class Course:
 
     Attributes
     ----------
-    way : array
-        At h, were it linear.
     node : array
         Way to the `NODE`, were it linear.
     """
@@ -208,7 +210,6 @@ class Course:
         self._phases = linear._phases(self._times)
         of_modes = np.expm1(self._phases) * linear._ways[:, None]
         self._ways: Floats = (linear.modes @ of_modes).real
-        self.way = self._ways[:, END]
         self.node = self._ways[:, NODE]
 
     def bent(self, remainder: Floats) -> Path:

@@ -58,10 +58,11 @@ def spread_after(excess: Excess, settled: Settled, before: Floats) -> Floats:
     found = of_tension @ of_tension.T
     if rest:
         of_rest = inverse @ by_all[:, rest]
-        across = of_rest @ after[np.ix_(rest, rest)]
+        across = of_rest @ after[rest][:, rest]
         found = found + across @ of_rest.T
-        after[np.ix_(at, rest)], after[np.ix_(rest, at)] = across, across.T
-    after[np.ix_(at, at)] = found
+        after[np.array(at)[:, None], rest] = across
+        after[np.array(rest)[:, None], at] = across.T
+    after[np.array(at)[:, None], at] = found
     return after
 
 
