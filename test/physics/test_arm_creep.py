@@ -70,7 +70,7 @@ def test_an_arm_that_just_runs_ends_where_short_legs_lead(monkeypatch, count):
     monkeypatch.setattr(flow, 'first_stride', lambda *_: None)
     for module in (flow, legs):
         monkeypatch.setattr(module, 'FAR', 0.03)
-    # A little beyond, so that legs are sure to run too.
-    expected = tracker.update(pulled(arm, moves - 1e-5))
-    assert state.bend_angles == pytest.approx(expected.bend_angles, abs=1e-3)
+    # A little beyond, so that legs are sure to run too: what lets it run is exact to 1e-4 N or so.
+    expected = tracker.update(pulled(arm, moves - 3e-4))
+    assert state.bend_angles == pytest.approx(expected.bend_angles, abs=3e-3)
     assert state.regimes == expected.regimes

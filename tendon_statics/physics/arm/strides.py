@@ -54,10 +54,14 @@ with friction forget"""
 PARTS = (0.25, 0.5, 0.75)
 """Of a stride, between which its way is taken for straight where that counts"""
 
-ERROR_ASIDE, ERROR_ALONG = 3e-5, 1.5e-4
+ERROR_ASIDE, ERROR_ALONG = 8e-5, 3e-4
 """Error of a stride in rad that is accepted, for each joint of the arm, across the motion and
 along it: how fast it goes is of no account, but the velocity at the end tells what is along it for
 a short way only"""
+
+SLOWING = 0.3
+"""Share of that which is accepted where the motion slows down: where it becomes faster most joints
+are on their way to stops, at which errors are forgotten"""
 
 
 def first_stride(leg: Leg, joints: int) -> float | None:
@@ -84,11 +88,12 @@ def go_strides(motion: Motion, time: float) -> None:
         aside, along = aside_and_along(error, last)
         passes = motion.rubs and any(old * new < 0.0 for old, new in zip(angles, end, strict=True))
         most = PASSING if passes else 2.0 * FAR
-        amiss = max(aside / ERROR_ASIDE, along / ERROR_ALONG) / len(angles)
+        before, after = max(map(abs, velocities)), max(map(abs, last))
+        allowed = len(angles) * (SLOWING if after < before else 1.0)
+        amiss = max(aside / ERROR_ASIDE, along / ERROR_ALONG) / allowed
         share = max(amiss, (far / most) ** 3, 1e-6)
         faster = 1.0
         if share <= 1.0:
-            before, after = max(map(abs, velocities)), max(map(abs, last))
             if after == 0.0 and not all(
                 v == 0.0 or abs(angle) == stop
                 for v, angle, stop in zip(velocities, end, motion.stops, strict=True)
