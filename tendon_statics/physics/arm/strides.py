@@ -54,12 +54,12 @@ with friction forget"""
 PARTS = (0.25, 0.5, 0.75)
 """Of a stride, between which its way is taken for straight where that counts"""
 
-ERROR_ASIDE, ERROR_ALONG = 8e-5, 3e-4
+ERROR_ASIDE, ERROR_ALONG = 5e-5, 2e-4
 """Error of a stride in rad that is accepted, for each joint of the arm, across the motion and
 along it: how fast it goes is of no account, but the velocity at the end tells what is along it for
 a short way only"""
 
-SLOWING = 0.3
+SLOWING = 0.5
 """Share of that which is accepted where the motion slows down: where it becomes faster most joints
 are on their way to stops, at which errors are forgotten"""
 
