@@ -65,7 +65,13 @@ are on their way to stops, at which errors are forgotten"""
 
 
 def first_stride(leg: Leg, joints: int) -> float | None:
-    """Return the time of a stride to try in the place of a leg; None if the leg is better."""
+    """Return the time of a stride to try in the place of a leg; None if the leg is better.
+
+    Parameters
+    ----------
+    joints : int
+        Of the arm.
+    """
     if leg.may_rest or joints <= FEW:
         return None
     time = leg.linear.far(SHORT)
@@ -92,7 +98,6 @@ def go_strides(motion: Motion, time: float) -> None:
         allowed = len(angles) * (SLOWING if after < before else 1.0)
         amiss = max(aside / ERROR_ASIDE, along / ERROR_ALONG) / allowed
         share = max(amiss, (far / most) ** 3, 1e-6)
-        faster = 1.0
         if share <= 1.0:
             if after == 0.0 and not all(
                 v == 0.0 or abs(angle) == stop
@@ -106,11 +111,13 @@ def go_strides(motion: Motion, time: float) -> None:
             angles, velocities = end, last
             if sum(map(bool, last)) <= FEW and far * after <= NEAR * (before - after):
                 break
-            faster = max(1.0, after * time / far)
         longer = min(SAFE * share ** (-1.0 / 3.0), MOST_LONGER)
         if far * longer < LEAST:
             break
-        time *= max(min(longer, FAR / far) / faster, 1.0 / MOST_LONGER)
+        longer = min(longer, FAR / far)
+        if share <= 1.0:  # what becomes faster goes farther in the same time
+            longer /= max(1.0, after * time / far)
+        time *= max(longer, 1.0 / MOST_LONGER)
     motion.set_out_from(motion.look_at(angles))
 
 
