@@ -12,8 +12,8 @@ so the way of all joints together is bounded, and the arm comes to rest.
 The motion is smooth while it is the same joints that move. It is followed so, leg by leg, and a
 leg ends where another joint comes to its limit, one falls below it, or one meets its stop; see
 `legs`. A long way is gone in `strides` instead, for as long as these are long, and one past where
-the arm lingers at once; see `creep`. Where no other joint moves before all are at rest, and that is
-near, M = K of those that move is solved by Newton's method; see `rest`.
+the arm lingers is gone at once; see `creep`. Where no other joint moves before all are at rest,
+and that is near, M = K of those that move is solved by Newton's method; see `rest`.
 """
 
 from __future__ import annotations
