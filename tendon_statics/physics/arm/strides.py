@@ -54,10 +54,13 @@ with friction forget"""
 PARTS = (0.25, 0.5, 0.75)
 """Of a stride, between which its way is taken for straight where that counts"""
 
-ERROR_ASIDE, ERROR_ALONG = 5e-5, 2e-4
-"""Error of a stride in rad that is accepted, for each joint of the arm, across the motion and
-along it: how fast it goes is of no account, but the velocity at the end tells what is along it for
-a short way only"""
+ERROR_ASIDE, ERROR_ALONG = 5e-4, 2e-3
+"""Error of a stride in rad that is accepted for an arm of `MANY` joints, across the motion and along
+it: how fast it goes is of no account, but the velocity at the end tells what is along it for a
+short way only"""
+
+MANY = 10
+"""Joints: of fewer the motion bends less often, and less error, by the square, takes little time"""
 
 SLOWING = 0.5
 """Share of that which is accepted where the motion slows down: where it becomes faster most joints
@@ -88,6 +91,7 @@ def go_strides(motion: Motion, time: float) -> None:
     """
     angles = motion.look.angles
     velocities = motion.flow(angles, motion.leaning(angles))
+    scale = min(len(angles) / MANY, 1.0) ** 2
     for _ in range(MOST_STRIDES):
         end, last, error = _stride(motion, angles, velocities, time)
         far = max([abs(new - old) for old, new in zip(angles, end, strict=True)])
@@ -95,7 +99,7 @@ def go_strides(motion: Motion, time: float) -> None:
         passes = motion.rubs and any(old * new < 0.0 for old, new in zip(angles, end, strict=True))
         most = PASSING if passes else 2.0 * FAR
         before, after = max(map(abs, velocities)), max(map(abs, last))
-        allowed = len(angles) * (SLOWING if after < before else 1.0)
+        allowed = scale * (SLOWING if after < before else 1.0)
         amiss = max(aside / ERROR_ASIDE, along / ERROR_ALONG) / allowed
         share = max(amiss, (far / most) ** 3, 1e-6)
         if share <= 1.0:
