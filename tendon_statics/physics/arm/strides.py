@@ -55,12 +55,12 @@ PARTS = (0.25, 0.5, 0.75)
 """Of a stride, between which its way is taken for straight where that counts"""
 
 ERROR_ASIDE, ERROR_ALONG = 5e-4, 2e-3
-"""Error of a stride in rad that is accepted for an arm of `MANY` joints, across the motion and along
-it: how fast it goes is of no account, but the velocity at the end tells what is along it for a
-short way only"""
+"""Error of a stride in rad that is accepted for an arm of `MANY` joints, across the motion and
+along it: how fast it goes is of no account, but the velocity at the end tells what is along it for
+a short way only"""
 
 MANY = 10
-"""Joints: of fewer the motion bends less often, and less error, by the square, takes little time"""
+"""Joints: the motion of fewer bends less often, so that less error takes little time"""
 
 SLOWING = 0.5
 """Share of that which is accepted where the motion slows down: where it becomes faster most joints
