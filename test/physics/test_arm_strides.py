@@ -13,13 +13,13 @@ from tendon_statics.physics.arm import flow, legs
 def runs(monkeypatch):
     """Whether each way was begun in strides."""
     found = []
-    suits = flow.suits_strides
+    first = flow.first_stride
 
-    def noted(leg):
-        found.append(suits(leg))
+    def noted(*asked):
+        found.append(first(*asked))
         return found[-1]
 
-    monkeypatch.setattr(flow, 'suits_strides', noted)
+    monkeypatch.setattr(flow, 'first_stride', noted)
     return found
 
 
@@ -35,7 +35,7 @@ def drawn(seed, units, cable_friction=0.0):
 def led_in_legs(monkeypatch, tracker, *pull):
     """Return the state after short legs alone."""
     with monkeypatch.context() as changed:
-        changed.setattr(flow, 'suits_strides', lambda _: False)
+        changed.setattr(flow, 'first_stride', lambda *_: None)
         changed.setattr(flow, 'FAR', 0.03)
         changed.setattr(legs, 'FAR', 0.03)
         return tracker.update(*pull)

@@ -8,6 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..design import JointDesign
 from ..errors import ArmError, TensionError
 from ..tensions import MAX_TENSION
@@ -169,6 +172,24 @@ class Arm:
     def stops(self) -> tuple[float, ...]:
         """θ_max of each joint in rad."""
         return tuple(design.max_bend_angle for design in self.designs)
+
+    @cached_property
+    def cable_ends(self) -> tuple[int, ...]:
+        """The unit at which each cable ends, counted from 1 at the base."""
+        return tuple(cable.last_unit for cable in self.cables)
+
+    @cached_property
+    def cable_levers(self) -> NDArray[np.float64]:
+        """Lever in m of each cable at each joint, to side s: shape (joints, cables).
+
+        Zero where it does not cross the joint.
+        """
+        levers = np.zeros((len(self.units), len(self.cables)))
+        for index, cable in enumerate(self.cables):
+            for joint, design in enumerate(self.designs[: cable.last_unit]):
+                offset = design.cable_offset if cable.offset is None else cable.offset
+                levers[joint, index] = cable.sign * (design.ball_radius + offset)
+        return levers
 
     @cached_property
     def cable_names(self) -> tuple[str, ...]:

@@ -37,11 +37,10 @@ def crossings(arm: Arm) -> list[Crossing]:
     found = []
     for number, design in enumerate(arm.designs, start=1):
         there = [i for i, cable in enumerate(arm.cables) if cable.last_unit >= number]
-        levers = {}
-        for index in there:
-            cable = arm.cables[index]
-            offset = design.cable_offset if cable.offset is None else cable.offset
-            levers[index] = cable.sign * (design.ball_radius + offset) / design.cable_lever
+        levers = {
+            index: float(arm.cable_levers[number - 1, index]) / design.cable_lever
+            for index in there
+        }
         alike = all(abs(lever) == 1.0 for lever in levers.values())
         left, right = (
             tuple(i for i in there if arm.cables[i].sign == sign) for sign in (-1.0, 1.0)
@@ -98,7 +97,6 @@ def transmitted(
     if friction == 0.0:
         return [tensions] * len(angles)
     at_joints, reaching, is_same = [], tensions, start is not None
-    ends = [cable.last_unit for cable in arm.cables]
     for number, angle in enumerate(angles, start=1):
         was = reaching if before is None else before[number - 1]
         if is_same and start and abs(angle) >= abs(start[number - 1]):
@@ -114,7 +112,7 @@ def transmitted(
             else tension * band
             if old > tension * band
             else old
-            for old, tension, end in zip(was, reaching, ends, strict=True)
+            for old, tension, end in zip(was, reaching, arm.cable_ends, strict=True)
         ]
         is_same = is_same and here == was
         reaching = was if is_same else here
@@ -157,11 +155,11 @@ def by_angles(
     bands = np.array([math.exp(friction * abs(angle)) for angle in angles])[:, None]
     reaching = np.concatenate(([tensions], at[:-1]))
     up, down = at == reaching * bands, at == reaching / bands
-    ahead = np.where(np.array(angles) < 0.0, -friction, friction)[:, None]
-    own = np.where(up, ahead, np.where(down, -ahead, 0.0))  # ∂ ln T'/∂θ by the joint's own angle
+    # ∂ ln T'/∂θ by the joint's own angle; none from where it is straight, as the band then widens
+    own = np.copysign(friction, angles)[:, None] * np.subtract(up, down, dtype=np.float64)
     joints = np.arange(len(angles))
     # What is not pushed at a joint does not feel those before it, either there or beyond.
     unfelt = np.maximum.accumulate(np.where(up | down, -1, joints[:, None]), axis=0)[:, :, None]
     feels = (joints > unfelt) & (joints <= joints[:, None, None])
-    found: NDArray[np.float64] = np.where(feels, at[:, :, None] * own.T, 0.0)
+    found: NDArray[np.float64] = at[:, :, None] * own.T * feels
     return found

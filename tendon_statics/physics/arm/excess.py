@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import cmath
-from typing import Any
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from ..tensions import Tensions
 from .arm import Arm
 from .cables import AtJoints, Crossing, by_angles, pair_at, transmitted_after
 from .carried import Carried
+from .look import Look
 
 Floats = NDArray[np.float64]
 
@@ -50,7 +51,6 @@ class Excess:
         self._crossing, self._tensions = crossing, tensions
         self.at_joints = at_joints
         self.springs = [design.stiffness for design in arm.designs]
-        self._stiffness = np.array(self.springs)
         self.levers = [design.cable_lever for design in arm.designs]
         self._angles: list[float] | None = None
         """Where they were that"""
@@ -72,24 +72,8 @@ class Excess:
 
     def at(self, angles: list[float]) -> Look:
         """Look at bend angles in rad."""
-        friction = self.arm.cable_friction_coefficient
-        at_joints, pairs, turning = self.at_joints, self._pairs, self._turning
-        if friction:
-            way = self._angles or angles, angles
-            at_joints = transmitted_after(self.arm, self._tensions, way, at_joints)
-            pairs = self._pairs_of(at_joints)
-            turning = self._turning_of(pairs)
-        turns = []
-        tilt = 0.0
-        for angle in angles:
-            tilt += angle
-            turns.append(cmath.rect(1.0, tilt))
-        beyond = 0.0j
-        turned = []
-        for own, turn in zip(reversed(self.carried.turning), reversed(turns), strict=True):
-            beyond += own * turn
-            turned.append(beyond)
-        turned.reverse()
+        at_joints, pairs, turning = self._cables_at(angles)
+        turns, turned = self._turned(angles)
         moments = [
             pull + dead.real - spring * angle
             for pull, dead, spring, angle in zip(
@@ -97,6 +81,57 @@ class Excess:
             )
         ]
         return Look(self, angles, turns, turned, moments, pairs, at_joints)
+
+    def flow(self, angles: list[float], leaning: list[float]) -> list[float]:
+        """Return θ' in N m of all joints by the rule of `flow`, at bend angles in rad.
+
+        Parameters
+        ----------
+        leaning : list of float
+            The side to which a joint does not move, since it is at its stop; 0 if there is none.
+        """
+        # Without a `Look`, which would take as long again.
+        _, pairs, turning = self._cables_at(angles)
+        turns, turned = self._turned(angles)
+        found, laws, springs = [], self._laws, self.springs
+        for joint, turn in enumerate(turns):
+            moment = turning[joint] + turned[joint].real - springs[joint] * angles[joint]
+            side = -1.0 if moment < 0.0 else 1.0
+            velocity = 0.0
+            if side != leaning[joint]:
+                kept = laws.get((joint, side))
+                if kept is None or kept[3] is not pairs[joint]:
+                    kept = self.law(joint, side, pairs[joint])
+                excess = side * moment - kept[1] * kept[0].at(turn.real, side * turn.imag)[0]
+                if excess > 0.0:
+                    velocity = side * excess
+            found.append(velocity)
+        return found
+
+    def _cables_at(self, angles: list[float]) -> tuple[AtJoints, list[Tensions], list[float]]:
+        """Return the tensions at the joints, the pair at each, and the M that they make."""
+        if not self.arm.cable_friction_coefficient:
+            return self.at_joints, self._pairs, self._turning
+        start = self._angles or angles
+        if all(new * old >= old * old for new, old in zip(angles, start, strict=True)):
+            # Bands that all widen push nothing.
+            return self.at_joints, self._pairs, self._turning
+        at_joints = transmitted_after(self.arm, self._tensions, (start, angles), self.at_joints)
+        pairs = self._pairs_of(at_joints)
+        return at_joints, pairs, self._turning_of(pairs)
+
+    def _turned(self, angles: list[float]) -> tuple[list[complex], list[complex]]:
+        """Return e^{jΘ_i} of each unit and q_i, of which the dead load's moment is Re q_i."""
+        turns, tilt = [], 0.0
+        for angle in angles:
+            tilt += angle
+            turns.append(cmath.rect(1.0, tilt))
+        turned, beyond = [], 0.0j
+        for own, turn in zip(reversed(self.carried.turning), reversed(turns), strict=True):
+            beyond += own * turn
+            turned.append(beyond)
+        turned.reverse()
+        return turns, turned
 
     def remember(self, look: Look) -> None:
         """Take it that the arm has come there, as the friction of the cables remembers."""
@@ -128,117 +163,52 @@ class Excess:
             self._laws[joint, side] = kept = slip.law, scale, slip.share, pair
         return kept
 
-    def by_tensions(self, joint: int, side: float, look: Look) -> list[float]:
-        """∂f/∂T in m of one joint by the tension at it of every cable."""
-        crossing, design = self._crossing[joint], self.arm.designs[joint]
-        law, _, share, _ = self.law(joint, side, look.pairs[joint])
-        turn = look.turns[joint]
-        state = law.at(turn.real, side * turn.imag)
-        held = side * design.ball_radius * (state[0] - share * law.by_share(state))
-        found = [0.0] * len(self.arm.cables)
-        for index in crossing.left:
-            found[index] = -design.cable_lever - held
-        for index in crossing.right:
-            found[index] = design.cable_lever - held
-        for index, lever in crossing.leverage:
-            found[index] = lever * design.cable_lever - held
+    def by_tensions(self, sides: dict[int, float], look: Look) -> Floats:
+        """∂f/∂T in m of some joints, by their sides: a row for each, by the tension of each cable.
+
+        By that at the joint.
+        """
+        held = []
+        for joint, side in sides.items():
+            law, _, share, _ = self.law(joint, side, look.pairs[joint])
+            _, _, state = look.capacity(joint, side)
+            grip = state[0] - share * law.by_share(state)
+            held.append(side * self.arm.designs[joint].ball_radius * grip)
+        levers = self.arm.cable_levers.take(list(sides), 0)
+        found: Floats = levers - np.array(held)[:, None] * (levers != 0.0)
         return found
 
-    def by_base_tensions(self, joint: int, side: float, look: Look) -> list[float]:
-        """∂f/∂T in m of one joint by the tension at the base of every cable.
+    def by_base_tensions(self, sides: dict[int, float], look: Look) -> Floats:
+        """∂f/∂T in m of some joints, by the tension at the base of each cable.
 
         What friction has kept at a guide from an earlier sample is taken to be as unsure as the
         sample of now, with the same error all along.
         """
-        found = self.by_tensions(joint, side, look)
+        found = self.by_tensions(sides, look)
         if self.arm.cable_friction_coefficient:
-            pulls = zip(look.at_joints[joint], self._tensions, strict=True)
-            found = [
-                gain * (at / tension if tension else 1.0)
-                for gain, (at, tension) in zip(found, pulls, strict=True)
-            ]
+            at_base = np.array(self._tensions)
+            at_joints = np.array([look.at_joints[joint] for joint in sides])
+            found *= np.divide(at_joints, at_base, where=at_base > 0.0, out=np.ones_like(found))
         return found
 
-    def jacobian(self, look: Look, moving: dict[int, float], by: list[int]) -> Floats:
-        """∂f/∂θ in N·m/rad, of the joints that move, by joint and side, by those of `by`."""
-        joints, others = np.array(list(moving))[:, None], np.array(by)
+    def jacobian(self, look: Look, sides: dict[int, float]) -> Floats:
+        """∂f/∂θ in N·m/rad of some joints, by their sides: a row for each, by all joints."""
+        joints = list(sides)
+        farther, before = _order(len(look.angles))
         turned = np.array([one.imag for one in look.turned])
-        slopes = np.array([look.capacity(i, side)[1] for i, side in moving.items()])
-        rows: Floats = -turned[np.maximum(joints, others)]
-        rows -= slopes[:, None] * (others <= joints)
-        rows -= self._stiffness[joints] * (others == joints)
+        slopes = np.array([look.capacity(joint, side)[1] for joint, side in sides.items()])
+        rows: Floats = -turned.take(farther.take(joints, 0))
+        rows -= slopes[:, None] * before.take(joints, 0)
+        rows[range(len(joints)), joints] -= [self.springs[joint] for joint in joints]
         if self.arm.cable_friction_coefficient:
-            gains = np.array([self.by_tensions(i, side, look) for i, side in moving.items()])
+            gains = self.by_tensions(sides, look)
             by_angle = by_angles(self.arm, self._tensions, look.angles, look.at_joints)
-            rows += (gains[:, None, :] @ by_angle[joints[:, 0]])[:, 0, others]
+            rows += (gains[:, None, :] @ by_angle[joints])[:, 0]
         return rows
 
 
-class Look:
-    """The joints of an arm at given bend angles.
-
-    Attributes
-    ----------
-    moments : list of float
-        M of each in N m.
-    """
-
-    __slots__ = (
-        *('_capacities', '_excess', 'angles', 'at_joints', 'moments', 'pairs', 'turned', 'turns'),
-    )
-
-    def __init__(
-        self,
-        excess: Excess,
-        angles: list[float],
-        turns: list[complex],
-        turned: list[complex],
-        moments: list[float],
-        pairs: list[Tensions],
-        at_joints: AtJoints,
-    ) -> None:
-        self._excess, self.angles = excess, angles
-        self._capacities: dict[tuple[int, float], tuple[float, float]] = {}
-        self.turns, self.turned, self.moments = turns, turned, moments
-        self.pairs, self.at_joints = pairs, at_joints
-
-    def capacity(self, joint: int, side: float) -> tuple[float, float]:
-        """K in N m for slipping to a side, and side ∂K/∂Θ."""
-        known = self._capacities.get((joint, side))
-        if known is None:
-            law, scale, _, _ = self._excess.law(joint, side, self.pairs[joint])
-            turn = self.turns[joint]
-            state: tuple[Any, ...] = law.at(turn.real, side * turn.imag)
-            known = self._capacities[joint, side] = scale * state[0], scale * state[1]
-        return known
-
-    def velocities(self, sides: dict[int, float]) -> list[float]:
-        """Return f = M − side K in N m of some joints, by their sides."""
-        return [
-            self.moments[joint] - side * self.capacity(joint, side)[0]
-            for joint, side in sides.items()
-        ]
-
-    def flow(self, leaning: list[float]) -> list[float]:
-        """Return θ' in N m of all joints by the rule of `flow`.
-
-        Parameters
-        ----------
-        leaning : list of float
-            The side to which a joint does not move, since it is at its stop; 0 if there is none.
-        """
-        found = []
-        for joint, (moment, stopped) in enumerate(zip(self.moments, leaning, strict=True)):
-            side = -1.0 if moment < 0.0 else 1.0
-            excess = 0.0
-            if side != stopped:
-                excess = side * moment - self.capacity(joint, side)[0]
-            found.append(side * excess if excess > 0.0 else 0.0)
-        return found
-
-    def drive(self, joint: int) -> tuple[float, float, float]:
-        """Side to which M drives, the excess |M| − K in N m, and K."""
-        moment = self.moments[joint]
-        side = -1.0 if moment < 0.0 else 1.0
-        capacity = self.capacity(joint, side)[0]
-        return side, side * moment - capacity, capacity
+@cache
+def _order(count: int) -> tuple[NDArray[np.intp], Floats]:
+    """Return the farther of two joints, and 1 where the second is not the farther; else 0."""
+    joints = np.arange(count)
+    return np.maximum.outer(joints, joints), np.tri(count)

@@ -11,9 +11,9 @@ so the way of all joints together is bounded, and the arm comes to rest.
 
 The motion is smooth while it is the same joints that move. It is followed so, leg by leg, and a
 leg ends where another joint comes to its limit, one falls below it, or one meets its stop; see
-`legs`. A long way is gone in `strides` instead, for as long as these are long. Where no other
-joint moves before all are at rest, and that is near, M = K of those that move is solved by
-Newton's method; see `rest`.
+`legs`. A long way is gone in `strides` instead, for as long as these are long, and one past where
+the arm lingers is gone at once; see `creep`. Where no other joint moves before all are at rest,
+and that is near, M = K of those that move is solved by Newton's method; see `rest`.
 """
 
 from __future__ import annotations
@@ -24,13 +24,20 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import ArmError
-from .excess import Excess, Look
+from .creep import creep
+from .excess import Excess
 from .legs import FAR, Leg
+from .linear_motion import largest
+from .look import Look
 from .motion import Motion
 from .rest import TINY, come_to_rest
-from .strides import SHORT, go_strides, suits_strides
+from .strides import first_stride, go_strides
 
 MOST_LEGS = 3000
+
+NO_REST = 0.25
+"""Share of the way to rest, were the motion linear, beyond which it is missed for good: if f is
+quadratic there is none"""
 
 
 @dataclass
@@ -62,23 +69,27 @@ def settle(excess: Excess, angles: list[float]) -> Settled:
             leg = Leg(motion, far)
         except np.linalg.LinAlgError:
             break
-        if may_stride and suits_strides(leg):
-            go_strides(motion, leg.linear.far(SHORT))
-            may_stride = False
+        stride = first_stride(leg, len(angles)) if may_stride else None
+        may_stride = stride is None
+        if stride:
+            go_strides(motion, stride)
             continue
-        may_stride = True
-        if not _rests(motion, leg):
+        missed = _missed(motion, leg)
+        if missed and not (missed > NO_REST and creep(motion, leg.linear)):
             far = leg.go()
             if not far:
                 break
     raise ArmError('the arm is not followed to rest: its numbers are out of all proportion')
 
 
-def _rests(motion: Motion, leg: Leg) -> bool:
-    """Go to rest if it is near and a leg goes there; return whether it was gone."""
+def _missed(motion: Motion, leg: Leg) -> float:
+    """Go to rest if it is near and a leg goes there; return by how much it was missed.
+
+    As `come_to_rest` has it: zero if it was gone, infinite if none is near.
+    """
+    if not leg.may_rest:
+        return math.inf
     way = leg.linear.to_rest
-    return (
-        leg.may_rest
-        and bool(leg.time == math.inf or abs(way).max() <= TINY)
-        and come_to_rest(motion, way, leg.jacobian)
-    )
+    if leg.rest_time < math.inf and largest(way) > TINY:
+        return NO_REST
+    return come_to_rest(motion, way, leg.jacobian)

@@ -149,7 +149,7 @@ class _Search:
                     continue
                 moment, capacity = side * look.moments[joint], look.capacity(joint, side)[0]
                 by_moment = side * self._levers(joint)
-                by_capacity = by_moment - side * np.array(excess.by_tensions(joint, side, look))
+                by_capacity = by_moment - side * excess.by_tensions({joint: side}, look)[0]
                 if joint == self._index:
                     to_limit = by_moment - by_capacity
                     missing = capacity - moment + to_limit @ tensions

@@ -14,12 +14,13 @@ all times, so is when another joint comes to its limit, one falls below it, or o
 from __future__ import annotations
 
 import math
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .excess import Look
-from .linear_motion import END, NODE, SQUARES, LinearMotion, Path
+from .linear_motion import END, NODE, SQUARES, LinearMotion, Path, largest
+from .look import Look
 from .motion import TOLERANCE, Motion
 from .rest import NEAR
 
@@ -41,12 +42,6 @@ SMALL = 1e-3
 JUST_BEYOND = 0.1
 """Share of an interval of time by which a leg goes beyond where other joints move, so that they
 do"""
-
-RATIO = 1.2
-"""Of one time that is looked at to that before it"""
-
-MOST_SPAN = 1e9
-"""Of the last time that is looked at to the first"""
 
 EARLY = 0.2
 """Share of a leg in which the path tells too roughly when other joints move"""
@@ -73,8 +68,8 @@ class Leg:
         The motion, as it is where the leg begins.
     may_rest : bool
         Whether a place of rest is near, were the motion linear.
-    time : float
-        When other joints move then, before; else when it is far. Infinite if it never is.
+    rest_time : float
+        When other joints move then, before that; infinite if none does, or it may not.
 
     Raises
     ------
@@ -83,35 +78,37 @@ class Leg:
     """
 
     def __init__(self, motion: Motion, far: float) -> None:
-        self._motion = motion
-        sides = motion.sides()
-        rows = motion.jacobian_rows(sides)
-        self.jacobian: Floats = rows[list(motion.moving)]
+        self._motion, self._far = motion, far
+        self._sides = motion.sides()
+        self._rows = motion.slopes(self._sides).take(list(motion.moving), 1)
+        self.jacobian: Floats = self._rows.take(list(motion.moving), 0)
         self.linear = LinearMotion(self.jacobian, motion.velocity(motion.look))
-        self._changes = _Changes(motion, sides, rows)
-        reach = abs(self.linear.to_rest).max()
-        self.may_rest = bool(self.linear.growth < 0.0 and reach <= NEAR)
+        reach = largest(self.linear.to_rest)
+        self.may_rest = self.linear.growth < 0.0 and reach <= NEAR
+        self.rest_time = math.inf
         if self.may_rest:
-            times = np.concatenate(([0.0], self.linear.times(MOST_SPAN, RATIO)))
-            self.time = self._changes.first(self.linear.path(times))
-        else:
-            self.time = self.linear.far(far)
+            self.rest_time = self._changes.first(self.linear.path(self.linear.times()))
+
+    @cached_property
+    def _changes(self) -> _Changes:
+        return _Changes(self._motion, self._sides, self._rows)
 
     def go(self) -> float:
         """Go the leg; return how far in rad the next may be tried, 0 if this was not gone."""
         motion, linear = self._motion, self.linear
-        end, error = min(self.time, linear.lifetime), 0.0
+        time = self.rest_time if self.may_rest else linear.far(self._far)
+        end, error = min(time, linear.lifetime), 0.0
         for trial in range(MOST_TRIALS):
-            course = linear.course(end)
-            way = course.way
-            if not abs(way).max() <= 2.0 * FAR:
+            way = linear.way(end)
+            if not largest(way) <= 2.0 * FAR:
                 end *= 0.1
                 continue
             if self.may_rest:  # so that nothing changes before the end, were the motion linear
                 look = motion.after(way)
                 bend = linear.bend(end, motion.velocity(look) - linear.velocity_at(way))
-                if abs(bend).max() <= TOLERANCE:
+                if largest(bend) <= LEG_ERROR:
                     break
+            course = linear.course(end)
             node = motion.after(course.node)
             remainder = motion.velocity(node) - linear.velocity_at(course.node)
             remainder /= SQUARES[NODE]
@@ -129,23 +126,25 @@ class Leg:
             return 0.0
         motion.take(look)
         motion.change()
-        far: float = 0.9 * float(abs(way).max()) * max(error, 1e-4) ** -0.25
+        far: float = 0.9 * largest(way) * max(error, 1e-4) ** -0.25
         return min(FAR, far)
 
     def _amiss(self, time: float, way: Floats, velocity: Floats, defect: Floats) -> float:
         """Return the error of a way, as a share of what is accepted, from that of its velocity."""
-        aside, along = aside_and_along(self.linear.bend(time, defect), velocity)
-        return max(aside / LEG_ERROR, along / (ALONG * float(abs(way).max())))
+        bend = self.linear.bend(time, defect)
+        aside, along = aside_and_along(bend.tolist(), velocity.tolist())
+        return max(aside / LEG_ERROR, along / (ALONG * largest(way)))
 
 
-def aside_and_along(error: Floats, velocity: Floats) -> tuple[float, float]:
+def aside_and_along(error: list[float], velocity: list[float]) -> tuple[float, float]:
     """Return how large in rad an error is across the motion, and along it.
 
     Along it counts less: how fast it goes is of no account.
     """
-    square = float(velocity @ velocity)
-    along = (float(error @ velocity) / square if square > 0.0 else 0.0) * velocity
-    return float(abs(error - along).max()), float(abs(along).max())
+    square = sum([v * v for v in velocity])
+    share = sum([e * v for e, v in zip(error, velocity, strict=True)]) / square if square else 0.0
+    aside = [abs(e - share * v) for e, v in zip(error, velocity, strict=True)]
+    return max(aside), abs(share) * max(map(abs, velocity))
 
 
 class _Changes:
@@ -170,7 +169,8 @@ class _Changes:
                 at_first.append(look.drive(joint)[1])
         self._at_first: Floats = np.array(at_first)[:, None]
         self._by_way: Floats = np.array(list(sides.values()))[:, None] * rows
-        self._by_way[list(moving)] = np.diag(list(moving.values()))
+        self._by_way[list(moving)] = 0.0
+        self._by_way[list(moving), range(len(moving))] = list(moving.values())
         self._sides: Floats = np.array(list(moving.values()))[:, None]
 
     def first(self, path: Path) -> float:
@@ -208,22 +208,22 @@ class _Changes:
     def _first(self, path: Path, signals: Floats) -> tuple[float, int] | None:
         """Return when the first change is, and the place in the path's times after it."""
         times, ways, velocities = path
+        happened = signals[:, 1:] > 0.0
+        there = happened.any(axis=0)
         forwards = self._sides * velocities
-        fastest = abs(velocities).max(axis=0)
-        slow = SMALL * fastest
-        if (forwards < -slow).any():
+        if forwards.min() < 0.0:
+            below = -SMALL * abs(velocities).max(axis=0) - forwards
             ahead = self._sides * ways
             back = (np.maximum.accumulate(ahead, axis=1) - ahead).max(axis=1, keepdims=True)
-            falls = (np.diff(forwards, prepend=0.0) < 0.0) & (back > TOLERANCE)
-            falling = np.where(falls, -forwards - slow, -fastest)
-            signals = np.concatenate((signals, falling))
-        happened = signals[:, 1:] > 0.0
-        if not happened.any():
+            falls = (below[:, 1:] > 0.0) & (below[:, 1:] > below[:, :-1]) & (back > TOLERANCE)
+            there |= falls.any(axis=0)
+        if not there.any():
             return None
-        place = int(happened.any(axis=0).argmax()) + 1
+        place, share = int(there.argmax()) + 1, 1.0
         happens = happened[:, place - 1]
-        was, now = signals[happens, place - 1], signals[happens, place]
-        shares = np.where(was < 0.0, was / (was - now), 1.0)
-        share = min(float(shares.min()) + JUST_BEYOND, 1.0)
+        if happens.any():
+            was, now = signals[happens, place - 1], signals[happens, place]
+            shares = np.where(was < 0.0, was / (was - now), 1.0)
+            share = min(float(shares.min()) + JUST_BEYOND, 1.0)
         before = times[place - 1]
         return float(before + share * (times[place] - before)), place

@@ -13,8 +13,13 @@ Floats = NDArray[np.float64]
 MOST_GROWTH = 300.0
 """Exponent of what grows beyond which it is no more followed"""
 
-SMALL_PHASE = 0.01
-"""Size of λ t below which φ₃ is taken from its series, where the closed form cancels"""
+SMALL_PHASE = 1e-4
+"""Size of λ t below which φ₃ is taken to be as there, since the closed form cancels"""
+
+RATIO, MOST_SPAN = 1.2, 1e9
+"""Of one time that is looked at to that before it, and of the last to the first at the most"""
+
+TIMES = np.append(0.0, RATIO ** np.arange(int(math.log(MOST_SPAN) / math.log(RATIO)) + 2))
 
 DOUBLINGS = 2.0 ** np.arange(-6, 12)
 """Of the time in which a way would be gone at the velocity at first"""
@@ -36,6 +41,12 @@ NODE, END = 15, 20
 """Which of them is where the remainder is looked at, and which is the end"""
 
 SQUARES, CUBES = PARTS**2, PARTS**3
+
+
+def largest(values: Any) -> float:
+    """Return the largest size in a small array, for which this is fast."""
+    found: float = max(map(abs, values.tolist()))
+    return found
 
 
 class Path(NamedTuple):
@@ -73,6 +84,9 @@ class LinearMotion:
 
     Attributes
     ----------
+    rates, modes, inverse : array
+        Eigenvalues of J, its right eigenvectors as columns, and the inverse of these; complex if
+        it swings.
     growth : float
         The fastest rate at which it grows; below zero where it dies away.
     decay : float
@@ -94,12 +108,13 @@ class LinearMotion:
             # Any small coupling gives it all eigenvectors; what that is amiss is remainder.
             ends = np.eye(len(jacobian))[::-1]
             rates, of_modes = self._decompose(jacobian + COUPLING * abs(jacobian).max() * ends)
-        self._rates = rates if rates.all() else np.where(rates == 0.0, NO_RATE, rates)
-        self._ways = of_modes / self._rates
-        self.growth = float(rates.real.max())
-        self.decay = -min(float(rates.real.min()), 0.0)
-        self.to_rest: Floats = -(self._modes @ self._ways).real
-        self._slow = float(abs(self._rates.real).min())
+        self.rates = rates if rates.all() else np.where(rates == 0.0, NO_RATE, rates)
+        self._ways = of_modes / self.rates
+        real = self.rates.real.tolist()
+        self.growth: float = max(real)
+        self.decay: float = max(-min(real), 0.0)
+        self.to_rest: Floats = -(self.modes @ self._ways).real
+        self._slow: float = min(map(abs, real))
 
     def _decompose(self, jacobian: Floats) -> tuple[Any, Any]:
         """Return the rates of the modes, and f in modes.
@@ -110,27 +125,20 @@ class LinearMotion:
             If the matrix has not as many eigenvectors as rows, or nearly so.
         """
         self._jacobian = jacobian
-        rates, self._modes = np.linalg.eig(jacobian)
-        self._inverse = np.linalg.inv(self._modes)
-        of_modes = self._inverse @ self.velocity
-        left = abs(self._modes @ of_modes - self.velocity).max()
-        if not left <= UNSOUND * abs(self.velocity).max():
+        rates, self.modes = np.linalg.eig(jacobian)
+        self.inverse = np.linalg.inv(self.modes)
+        of_modes = self.inverse @ self.velocity
+        if not largest(self.modes @ of_modes - self.velocity) <= UNSOUND * largest(self.velocity):
             raise np.linalg.LinAlgError('too few eigenvectors')
         return rates, of_modes
 
-    def times(self, most: float, ratio: float) -> Floats:
-        """Return times at a ratio to one another, from almost at once to where it has died away.
-
-        Parameters
-        ----------
-        most : float
-            Of the last to the first at the most.
-        """
+    def times(self) -> Floats:
+        """Return the start and times from almost at once to where it has died away."""
         # Where nothing grows or dies away, time is measured by the way: in that of a radian.
-        fast = float(max(abs(self._rates).max(), abs(self.velocity).max()))
-        span = min(64.0 * fast / self._slow, most)
-        count = int(math.log(span) / math.log(ratio)) + 2
-        return np.asarray(0.125 / fast * ratio ** np.arange(count), np.float64)
+        fast = max(largest(self.rates), largest(self.velocity))
+        span = 64.0 * fast / self._slow
+        count = int(math.log(span) / math.log(RATIO)) + 3 if span < MOST_SPAN else len(TIMES)
+        return np.asarray(0.125 / fast * TIMES[:count], np.float64)
 
     @property
     def lifetime(self) -> float:
@@ -140,7 +148,11 @@ class LinearMotion:
     def ways(self, times: Floats) -> Floats:
         """Return the ways up to some times, a column for each, were it linear."""
         of_modes = np.expm1(self._phases(times)) * self._ways[:, None]
-        return np.asarray((self._modes @ of_modes).real, np.float64)
+        return np.asarray((self.modes @ of_modes).real, np.float64)
+
+    def way(self, time: float) -> Floats:
+        """Return the way up to a time, were it linear."""
+        return self.ways(np.array([time]))[:, 0]
 
     def course(self, end: float) -> Course:
         """Return the motion up to a time, were it linear, and what a remainder makes of it."""
@@ -148,7 +160,7 @@ class LinearMotion:
 
     def far(self, way: float) -> float:
         """Return about when it would be as far as a way, were it linear; infinite if never."""
-        times = np.asarray(way / abs(self.velocity).max() * DOUBLINGS, np.float64)
+        times = np.asarray(way / largest(self.velocity) * DOUBLINGS, np.float64)
         gone = abs(self.ways(times)).max(axis=0)
         there = np.flatnonzero(gone > way)
         if not len(there):
@@ -166,8 +178,8 @@ class LinearMotion:
 
     def bend(self, time: float, remainder: Floats) -> Floats:
         """Return what a remainder of the velocity makes of the way, if it came with t²."""
-        gains = (2.0 * time) * _phi_3(self._rates * time)
-        return np.asarray((self._modes @ (gains * (self._inverse @ remainder))).real, np.float64)
+        gains = (2.0 * time) * _phi_3(self.rates * time)
+        return np.asarray((self.modes @ (gains * (self.inverse @ remainder))).real, np.float64)
 
     def path(self, times: Floats) -> Path:
         """Return where it is at some times, were it linear."""
@@ -177,8 +189,8 @@ class LinearMotion:
 
     def _phases(self, times: Floats) -> Any:
         """λ t of all modes, a column for each time."""
-        phases = self._rates[:, None] * times
-        if self.growth * times[-1] > MOST_GROWTH:
+        phases = self.rates[:, None] * times
+        if self.growth > 0.0 and self.growth * times[-1] > MOST_GROWTH:
             phases = np.where(phases.real > MOST_GROWTH, MOST_GROWTH, phases)
         return phases
 
@@ -188,8 +200,6 @@ class Course:
 
     Attributes
     ----------
-    way : array
-        At h, were it linear.
     node : array
         Way to the `NODE`, were it linear.
     """
@@ -199,25 +209,22 @@ class Course:
         self._times: Floats = end * PARTS
         self._phases = linear._phases(self._times)
         of_modes = np.expm1(self._phases) * linear._ways[:, None]
-        self._ways: Floats = (linear._modes @ of_modes).real
-        self.way = self._ways[:, END]
+        self._ways: Floats = (linear.modes @ of_modes).real
         self.node = self._ways[:, NODE]
 
     def bent(self, remainder: Floats) -> Path:
         """Return where it is if there is a remainder d·(t/h)²; `remainder` is d."""
         linear = self._linear
         gains = (2.0 * self._end) * CUBES * _phi_3(self._phases)
-        of_modes = gains * (linear._inverse @ remainder)[:, None]
-        ways = self._ways + (linear._modes @ of_modes).real
+        of_modes = gains * (linear.inverse @ remainder)[:, None]
+        ways = self._ways + (linear.modes @ of_modes).real
         velocities = linear.velocity[:, None] + linear._jacobian @ ways
         velocities += SQUARES * remainder[:, None]
         return Path(self._times, ways, velocities)
 
 
 def _phi_3(phases: Any) -> Any:
-    """φ₃(z) = (e^z − 1 − z − z²/2) / z³."""
-    small = abs(phases) < SMALL_PHASE
-    z = np.where(small, 1.0, phases)
+    """φ₃(z) = (e^z − 1 − z − z²/2) / z³, to a ten-thousandth."""
+    z = np.where(abs(phases) < SMALL_PHASE, SMALL_PHASE, phases)
     squares = z * z
-    found = (np.expm1(z) - z - 0.5 * squares) / (squares * z)
-    return np.where(small, (1.0 + phases * (0.25 + 0.05 * phases)) / 6.0, found)
+    return (np.expm1(z) - z - 0.5 * squares) / (squares * z)

@@ -7,7 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from .excess import Excess, Look
+from .excess import Excess
+from .look import Look
 
 Floats = NDArray[np.float64]
 
@@ -45,6 +46,8 @@ class Motion:
         self._excess = excess
         self._from: dict[int, float] = {}
         """Where each of those that move was when it began to"""
+        self._slopes: tuple[Look, dict[int, float], Floats] | None = None
+        """Where the arm was last asked for its jacobian, with what sides, and what it is"""
         self._undecided: set[int] = set()
         """Joints that rounding alone would move"""
         self.free()
@@ -55,7 +58,7 @@ class Motion:
 
     def jacobian(self, look: Look) -> Floats:
         """Return ∂f/∂θ of the joints that move, in N·m/rad, elsewhere."""
-        return self._excess.jacobian(look, self.moving, list(self.moving))
+        return self._excess.jacobian(look, self.moving).take(list(self.moving), 1)
 
     def after(self, way: Floats) -> Look:
         """Look at the arm with the moving joints moved on, by angles in rad."""
@@ -68,6 +71,10 @@ class Motion:
         """Look at the arm at bend angles in rad."""
         return self._excess.at(angles)
 
+    def flow(self, angles: list[float], leaning: list[float]) -> list[float]:
+        """Return θ' of all joints, elsewhere, as `Excess.flow` has it."""
+        return self._excess.flow(angles, leaning)
+
     def take(self, look: Look) -> None:
         """Go there."""
         self._excess.remember(look)
@@ -77,11 +84,11 @@ class Motion:
         """Whether a joint that is driven to a side is at its stop."""
         return side * self.look.angles[joint] >= self.stops[joint]
 
-    def leaning(self) -> list[float]:
-        """Return the side on which each joint is at its stop; 0 where it is not."""
+    def leaning(self, angles: list[float]) -> list[float]:
+        """Return the side on which each joint is at its stop, elsewhere; 0 where it is not."""
         return [
             math.copysign(1.0, angle) if abs(angle) >= stop else 0.0
-            for angle, stop in zip(self.look.angles, self.stops, strict=True)
+            for angle, stop in zip(angles, self.stops, strict=True)
         ]
 
     def sides(self) -> dict[int, float]:
@@ -91,9 +98,29 @@ class Motion:
             for joint in range(len(self.stops))
         }
 
-    def jacobian_rows(self, sides: dict[int, float]) -> Floats:
-        """Return ∂f/∂θ of joints with these sides, by those that move."""
-        return self._excess.jacobian(self.look, sides, list(self.moving))
+    def slopes(self, sides: dict[int, float]) -> Floats:
+        """Return ∂f/∂θ in N·m/rad of all joints, with these sides, where the arm is."""
+        if self._slopes is None or self._slopes[0] is not self.look or self._slopes[1] != sides:
+            self._slopes = self.look, sides, self._excess.jacobian(self.look, sides)
+        return self._slopes[2]
+
+    def changes_at(self, look: Look, too_much: float) -> bool:
+        """Whether a joint at rest is beyond its limit there, or one that moves beyond its stop.
+
+        Parameters
+        ----------
+        too_much : float
+            What is beyond the limit, in N m.
+        """
+        for joint, stop in enumerate(self.stops):
+            if joint in self.moving:
+                if abs(look.angles[joint]) > stop:
+                    return True
+            else:
+                side, excess, _ = look.drive(joint)
+                if excess > too_much and not self.lean_on_stop(joint, side):
+                    return True
+        return False
 
     def free(self) -> None:
         """Set moving what is beyond its limit and not before its stop."""
@@ -142,7 +169,9 @@ class Motion:
         if all(side * velocity >= 0.0 for side, velocity in zip(sides, velocities, strict=True)):
             return []
         velocity = np.array(velocities)
-        acceleration = self.jacobian(self.look) @ velocity
+        joints = list(self.moving)
+        jacobian = self.slopes(self.sides()).take(joints, 0).take(joints, 1)
+        acceleration = jacobian @ velocity
         ahead = np.array(list(sides))
         falls = (ahead * velocity < 0.0) & (ahead * acceleration < 0.0)
         return [joint for joint, is_falling in zip(self.moving, falls, strict=True) if is_falling]

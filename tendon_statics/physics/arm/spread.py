@@ -48,10 +48,8 @@ def spread_after(excess: Excess, settled: Settled, before: Floats) -> Floats:
     if not at:
         return after
     rest = [joint for joint in range(count) if joint not in at]
-    by_all = excess.jacobian(look, at_limit, list(range(count)))
-    by_tension = np.array(
-        [excess.by_base_tensions(joint, side, look) for joint, side in at_limit.items()]
-    )
+    by_all = excess.jacobian(look, at_limit)
+    by_tension = excess.by_base_tensions(at_limit, look)
     try:
         inverse = -np.linalg.inv(by_all[:, at])
     except np.linalg.LinAlgError:
@@ -62,10 +60,9 @@ def spread_after(excess: Excess, settled: Settled, before: Floats) -> Floats:
         of_rest = inverse @ by_all[:, rest]
         across = of_rest @ after[rest][:, rest]
         found = found + across @ of_rest.T
-        for joint, row in zip(at, across, strict=True):
-            after[joint, rest] = after[rest, joint] = row
-    for joint, row in zip(at, found, strict=True):
-        after[joint, at] = row
+        after[np.array(at)[:, None], rest] = across
+        after[np.array(rest)[:, None], at] = across.T
+    after[np.array(at)[:, None], at] = found
     return after
 
 

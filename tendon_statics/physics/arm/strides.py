@@ -3,14 +3,16 @@
 The velocities f = ±max(|M| − K, 0) of all joints are continuous in their angles, also where a
 joint comes to its limit or falls below it, and so they are where it meets its stop if it is let go
 on beyond that, while the arm stays as at the stop. A Runge-Kutta method needs no more: what bends
-sharply within a step shows in the estimate of its error. This is the pair of orders 5 and 4 by
-Dormand and Prince, J. Comput. Appl. Math. 6 (1980), whose last stage is the first of the next.
+sharply within a step shows in the estimate of its error. This is the pair of orders 3 and 2 by
+Bogacki and Shampine, Appl. Math. Lett. 2 (1989), whose last stage is the first of the next; with
+so many bends a higher order gains nothing.
 
 What cables with friction remember is that of the way so far, taken for straight within a stride;
 but where joints come through the straight, at which the cables forget, it is taken as it bends.
 
 It is far cheaper than `legs`, of which one ends at each such event, but short of breath: what dies
-away fast shortens it, as before the rest. So legs go on where strides become short.
+away fast shortens it, as before the rest. So legs go on where strides become short, and lead the
+last joints to rest.
 """
 
 from __future__ import annotations
@@ -18,25 +20,32 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-from .excess import Look
 from .legs import FAR, Leg, aside_and_along
 from .linear_motion import Path
 from .motion import Motion
+from .rest import NEAR
 
-Floats = NDArray[np.float64]
-
-STIFF = 2.0
-"""λ t up to which what dies away at the rate λ does not shorten a stride of the time t, as about
+STIFF = 3.0
+"""λ t up to which strides of the time t are tried where something dies away at the rate λ: about
 where the method is stable"""
 
 SHORT = 0.01
-"""Way in rad below which a stride is short"""
+"""Way in rad of the first stride, to try"""
+
+LEAST = 0.002
+"""Way in rad below which legs are better"""
+
+FEW = 2
+"""Joints that are better led to rest by legs, if that is `NEAR`"""
 
 MOST_STRIDES = 200
 MOST_LONGER = 5.0
 """Than one stride the next"""
+
+SAFE = 0.7
+"""Share of a stride whose error would just be accepted, that the next is made: what bends sharply
+ahead is not foreseen"""
 
 PASSING = 0.15
 """Way in rad of a stride at the most if a joint comes through the straight on it, where cables
@@ -45,90 +54,130 @@ with friction forget"""
 PARTS = (0.25, 0.5, 0.75)
 """Of a stride, between which its way is taken for straight where that counts"""
 
-DAMPING = 0.08
-"""How much the error of the stride before counts for the next: where errors grow from stride to
-stride it is shorter, so that fewer are tried in vain (Gustafsson's control; Hairer and Wanner,
-"Solving Ordinary Differential Equations II", IV.2)"""
+ERROR_ASIDE, ERROR_ALONG = 5e-4, 2e-3
+"""Error of a stride in rad that is accepted for an arm of `MANY` joints, across the motion and
+along it: how fast it goes is of no account, but the velocity at the end tells what is along it for
+a short way only"""
 
-ERROR_ASIDE, ERROR_ALONG = 8e-5, 1e-3
-"""Error of a stride in rad that is accepted, across the motion and along it: how fast it goes is
-of no account, but the velocity at the end tells what is along it for a short way only"""
+MANY = 10
+"""Joints: the motion of fewer bends less often, so that less error takes little time"""
 
-STAGES: list[Floats] = [
-    np.array(weights)
-    for weights in (
-        [1 / 5],
-        [3 / 40, 9 / 40],
-        [44 / 45, -56 / 15, 32 / 9],
-        [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729],
-        [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656],
-        [35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],
-    )
-]
-"""Of the velocities before it, in the way to each stage; the last stage is the end"""
-
-ERROR_WEIGHTS: Floats = np.array(
-    [71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40]
-)
-"""Of all velocities, in the difference of the two ways"""
+SLOWING = 0.5
+"""Share of that which is accepted where the motion slows down: where it becomes faster most joints
+are on their way to stops, at which errors are forgotten"""
 
 
-def suits_strides(leg: Leg) -> bool:
-    """Return whether a motion that begins as a leg is better gone in strides."""
-    return not leg.may_rest and leg.linear.decay * leg.time <= STIFF
+def first_stride(leg: Leg, joints: int) -> float | None:
+    """Return the time of a stride to try in the place of a leg; None if the leg is better.
+
+    Parameters
+    ----------
+    joints : int
+        Of the arm.
+    """
+    if leg.may_rest or joints <= FEW:
+        return None
+    time = leg.linear.far(SHORT)
+    return time if leg.linear.decay * time <= STIFF else None
 
 
 def go_strides(motion: Motion, time: float) -> None:
-    """Go strides until one is short.
+    """Go strides until one is short, or few joints are near their rest.
 
     Parameters
     ----------
     time : float
         Of the first one, to try.
     """
-    highest = np.array(motion.stops)
-    lowest = -highest
-    angles = np.array(motion.look.angles)
-    velocities: Floats = np.empty((len(ERROR_WEIGHTS), len(angles)))
-    velocities[0] = motion.look.flow(motion.leaning())
-    before = 1.0
+    angles = motion.look.angles
+    velocities = motion.flow(angles, motion.leaning(angles))
+    scale = min(len(angles) / MANY, 1.0) ** 2
     for _ in range(MOST_STRIDES):
-        leaning, look = motion.leaning(), motion.look
-        for number, weights in enumerate(STAGES, start=1):
-            beyond = angles + time * weights.dot(velocities[:number])
-            end = np.minimum(np.maximum(beyond, lowest), highest)
-            look = motion.look_at(end.tolist())
-            velocities[number] = look.flow(leaning)
-        far = float(abs(end - angles).max())
-        stopped = end != beyond
-        last = np.where(stopped, 0.0, velocities[-1])
-        error = np.where(stopped, 0.0, time * ERROR_WEIGHTS.dot(velocities))
+        end, last, error = _stride(motion, angles, velocities, time)
+        far = max([abs(new - old) for old, new in zip(angles, end, strict=True)])
         aside, along = aside_and_along(error, last)
-        share = max(aside / ERROR_ASIDE, along / ERROR_ALONG) if far <= 2.0 * FAR else math.inf
-        passes = motion.rubs and bool((angles * end < 0.0).any())
-        if passes:
-            share = max(share, (far / PASSING) ** 5)
+        passes = motion.rubs and any(old * new < 0.0 for old, new in zip(angles, end, strict=True))
+        most = PASSING if passes else 2.0 * FAR
+        before, after = max(map(abs, velocities)), max(map(abs, last))
+        allowed = scale * (SLOWING if after < before else 1.0)
+        amiss = max(aside / ERROR_ASIDE, along / ERROR_ALONG) / allowed
+        share = max(amiss, (far / most) ** 3, 1e-6)
         if share <= 1.0:
+            if after == 0.0 and not all(
+                v == 0.0 or abs(angle) == stop
+                for v, angle, stop in zip(velocities, end, motion.stops, strict=True)
+            ):
+                break  # beyond where some come to rest, which legs find exactly
             if passes:
-                ends = np.array([angles, end]).T, np.array([velocities[0], last]).T
-                look = _gone_along(motion, Path(np.array([0.0, time]), *ends))
-                last = np.where(stopped, 0.0, look.flow(leaning))
-            motion.set_out_from(look)
-            angles, velocities[0], least = end, last, SHORT
-            longer = 0.9 * max(share, 1e-6) ** (0.75 * DAMPING - 0.2) * before**DAMPING
-            before = max(share, 1e-3)
-        else:  # what bends sharply is soon behind
-            least, longer = 0.5 * SHORT, 0.9 * share**-0.2
-        longer = min(longer, MOST_LONGER)
-        if not (motion.moving and far * longer >= least):
-            return
-        time *= max(min(longer, FAR / far), 1.0 / MOST_LONGER)
+                last = _gone_along(motion, time, end, (velocities, last))
+            elif motion.rubs:
+                motion.take(motion.look_at(end))
+            angles, velocities = end, last
+            if sum(map(bool, last)) <= FEW and far * after <= NEAR * (before - after):
+                break
+        longer = min(SAFE * share ** (-1.0 / 3.0), MOST_LONGER)
+        if far * longer < LEAST:
+            break
+        longer = min(longer, FAR / far)
+        if share <= 1.0:  # what becomes faster goes farther in the same time
+            longer /= max(1.0, after * time / far)
+        time *= max(longer, 1.0 / MOST_LONGER)
+    motion.set_out_from(motion.look_at(angles))
 
 
-def _gone_along(motion: Motion, path: Path) -> Look:
-    """Let the cables remember the way of a stride as it bends; return what is at its end."""
+def _stride(
+    motion: Motion, angles: list[float], velocities: list[float], time: float
+) -> tuple[list[float], list[float], list[float]]:
+    """Return the angles at the end of a stride, the velocities there, and the angles' errors.
+
+    What meets its stop has neither.
+    """
+    leaning, stops, first = motion.leaning(angles), motion.stops, velocities
+    second = motion.flow(_after(angles, first, 0.5 * time, stops), leaning)
+    third = motion.flow(_after(angles, second, 0.75 * time, stops), leaning)
+    mean = [
+        (2.0 * one + 3.0 * two + 4.0 * three) / 9.0
+        for one, two, three in zip(first, second, third, strict=True)
+    ]
+    end = _after(angles, mean, time, stops)
+    fourth = motion.flow(end, leaning)
+    errors = [
+        time * (-5.0 * one + 6.0 * two + 8.0 * three - 9.0 * four) / 72.0
+        for one, two, three, four in zip(first, second, third, fourth, strict=True)
+    ]
+    for joint, stop in enumerate(stops):
+        if mean[joint] and abs(end[joint]) == stop:
+            fourth[joint] = errors[joint] = 0.0
+    return end, fourth, errors
+
+
+def _after(
+    angles: list[float], velocities: list[float], time: float, stops: tuple[float, ...]
+) -> list[float]:
+    """Return the angles after a time at some velocities, within the stops."""
+    return [
+        angle
+        if -stop <= (angle := start + time * velocity) <= stop
+        else math.copysign(stop, angle)
+        for start, velocity, stop in zip(angles, velocities, stops, strict=True)
+    ]
+
+
+def _gone_along(
+    motion: Motion, time: float, end: list[float], velocities: tuple[list[float], list[float]]
+) -> list[float]:
+    """Let the cables remember the way of a stride as it bends; return the velocities at its end.
+
+    Parameters
+    ----------
+    velocities : pair of list of float
+        At its start and at its end.
+    """
+    ways = np.array([motion.look.angles, end]).T
+    path = Path(np.array([0.0, time]), ways, np.array(velocities).T)
     stops = np.array(motion.stops)
     for part in PARTS:
-        angles = path.way(part * float(path.times[1]), 1)
+        angles = path.way(part * time, 1)
         motion.take(motion.look_at(np.clip(angles, -stops, stops).tolist()))
-    return motion.look_at(path.ways[:, 1].tolist())
+    motion.take(motion.look_at(end))
+    return motion.flow(end, motion.leaning(end))
