@@ -23,3 +23,6 @@ class Regime(str, Enum):
 
     def __str__(self) -> str:
         return self.value
+
+    # As that of the value, which is equal; an enumeration would take the name's.
+    __hash__ = str.__hash__

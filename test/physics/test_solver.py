@@ -44,6 +44,12 @@ def assert_agrees(equilibrium: Equilibrium, regime: str, roots: int, angle, pres
         assert equilibrium.pressure == pytest.approx(pressure, rel=PRESSURE_TOLERANCE)
 
 
+def test_a_regime_is_the_same_key_as_its_value():
+    """As what is equal has to be."""
+    assert {Regime.HELD: 1.0}['held'] == 1.0
+    assert len({*Regime, *map(str, Regime)}) == len(Regime)
+
+
 def test_the_published_case():
     equilibrium = solve(PRELIMINARY, 1.0, 2.0)
     assert math.degrees(equilibrium.bend_angle) == pytest.approx(17.14, abs=5e-6)
