@@ -15,8 +15,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from .normal_pair import SQRT_TWO_PI, below, score_of
-from .roots import LEAST, cubic_zero
+from .normal_pair import SQRT_TWO_PI, below, both_below, score_of
+from .roots import LEAST
 
 LAST_BEND = 1e-3
 """Score that the last step to an angle misses at the most, as the slopes nearby bend"""
@@ -30,14 +30,23 @@ LAST_RISE = 0.3
 LAST_MISS = 0.2
 """The same of the score of P, given the condition"""
 
-CERTAIN = 6.0
-"""Score of a P, given the condition, that only tells to which side it is"""
-
 STEPS = 14
 """To such an angle at the most, should each but halve the range; one or two are taken"""
 
 USUAL_STEPS = 4
 """Those after which every other one halves the range"""
+
+CUBIC_STEPS = 6
+"""To where a cubic has a value; two or three are taken"""
+
+CUBIC_SHARE = 1e-2
+"""Of its range: the last of them, of which the next would be a hundredth or less"""
+
+FAR = 3.0
+"""Deviations of what parts the condition from g > 0, from which on one of the two decides"""
+
+CERTAIN = 6.0
+"""Score of a P, given the condition, that only tells to which side it is"""
 
 NARROWEST = 1e-12
 """Least 1 − ρ², in place of what rounding makes of none"""
@@ -112,31 +121,19 @@ class FirstRoot:
         """
         low, high = knots[index - 1], knots[index]
         rises = low[4] < high[4]
-        bound = self._bound
-        chance = below(bound)
-        # The score of a condition that goes together with g > 0, or with g < 0, as most do that
-        # count, and that of one that has nothing to do with g; others are between the two.
-        together = score_of(wanted if low[3] >= 0.0 else wanted + 1.0 - chance)
-        apart = score_of(wanted / chance)
-        asked, miss = together, 0.0
-        ahead = _where(low, high, asked)
+        aim = _Aim(wanted, self._bound, low[3])
+        ahead = _where(low, high, aim.score)
         for count in range(STEPS):
             if not low[0] <= ahead <= high[0] or (count > USUAL_STEPS and count % 2):
                 ahead = 0.5 * (low[0] + high[0])
-            knot = _, score, slope, correlation, probability = self._knot(ahead)
-            if (probability < wanted) == rises:
+            knot = self._knot(ahead)
+            if (knot[4] < wanted) == rises:
                 low = knot
             else:
                 high = knot
-            if probability == below(score):  # The condition takes nothing away.
-                asked, miss = together, 0.0
-            else:
-                given = score_of(probability / chance)
-                miss = apart - given
-                if -CERTAIN < given < CERTAIN:
-                    asked = score + _rise(score, bound, correlation, chance, given, miss)
-                    asked = sorted((together, asked, apart))[1]
-            rise = asked - score
+            _, score, slope, correlation, probability = knot
+            miss = aim.mend(score, correlation, probability)
+            rise = aim.score - score
             step = rise / slope if slope else math.inf
             width = high[0] - low[0]
             bend = abs(step * step * (high[2] - low[2]))
@@ -147,6 +144,48 @@ class FirstRoot:
             ahead += step
         knots.insert(index, knot)
         return min(max(ahead + step, low[0]), high[0])
+
+
+class _Aim:
+    """The score s that goes with a P that is wanted.
+
+    Parameters
+    ----------
+    bound, correlation : float
+        t, and ρ about there.
+
+    Attributes
+    ----------
+    score : float
+        s, as far as it is known.
+    """
+
+    def __init__(self, wanted: float, bound: float, correlation: float) -> None:
+        self._bound = bound
+        self._chance = chance = below(bound)
+        # That of a condition that goes together with g > 0, or with g < 0, as most do that count,
+        # and that of one that has nothing to do with g; it is between the two.
+        self._together = score_of(wanted if correlation >= 0.0 else wanted + 1.0 - chance)
+        self._apart = score_of(wanted / chance)
+        self.score = self._together
+        gap = self.score - bound if correlation >= 0.0 else self.score + bound
+        if gap * gap < FAR * FAR * (1.0 - correlation * correlation):
+            self.mend(self.score, correlation, both_below(self.score, bound, correlation))
+
+    def mend(self, score: float, correlation: float, probability: float) -> float:
+        """Correct it by the P at a score; return by how much that misses what is wanted.
+
+        In terms of the score of P given the condition, which follows s nearly in a straight line.
+        """
+        if probability == below(score):  # The condition takes nothing away.
+            self.score = self._together
+            return 0.0
+        given = score_of(probability / self._chance)
+        miss = self._apart - given
+        if -CERTAIN < given < CERTAIN:
+            score += _rise(score, self._bound, correlation, self._chance, given, miss)
+            self.score = sorted((self._together, score, self._apart))[1]
+        return miss
 
 
 def _rise(
@@ -174,16 +213,21 @@ def _rise(
 
 
 def _where(low: Knot, high: Knot, score: float) -> float:
-    """Angle ahead in rad at which the score between two knots is about what it is to be."""
-    one = low[0], low[1] - score, low[2]
-    other = high[0], high[1] - score, high[2]
-    ahead: float = cubic_zero(one, other)
-    return ahead if low[0] <= ahead <= high[0] else _from_turn(one, other)
-
-
-def _from_turn(low: tuple[float, float, float], high: tuple[float, float, float]) -> float:
-    """Where a parabola through two knots is zero that turns at the flatter one."""
-    turn, other = (low, high) if abs(low[2]) < abs(high[2]) else (high, low)
-    drop = turn[1] - other[1]
-    share = min(max(turn[1] / drop, 0.0), 1.0) if drop else 0.0
-    return turn[0] + (other[0] - turn[0]) * math.sqrt(share)
+    """Angle ahead in rad where the cubic through two knots, with their slopes, is at a score."""
+    place, before, slope, _, _ = low
+    other, after, other_slope, _, _ = high
+    width = other - place
+    rise = after - before
+    slope *= width
+    other_slope *= width
+    third = slope + other_slope - 2.0 * rise
+    second = rise - slope - third
+    short = score - before
+    share = short / rise
+    for _ in range(CUBIC_STEPS):
+        missing = short - share * (slope + share * (second + share * third))
+        step = missing / (slope + share * (2.0 * second + 3.0 * share * third) + LEAST)
+        share += step
+        if -CUBIC_SHARE < step < CUBIC_SHARE:
+            break
+    return place + share * width
