@@ -24,10 +24,10 @@ LAST_BEND = 1e-3
 LAST_TURN = 0.05
 """That as a share of the score that it mends"""
 
-LAST_RISE = 0.3
+LAST_RISE = 1.0
 """Score that it mends at the most, since slopes are not exact"""
 
-LAST_MISS = 0.2
+LAST_MISS = 0.3
 """The same of the score of P, given the condition"""
 
 STEPS = 14
