@@ -167,6 +167,7 @@ class _Aim:
         # and that of one that has nothing to do with g; it is between the two.
         self._together = score_of(wanted if correlation >= 0.0 else wanted + 1.0 - chance)
         self._apart = score_of(wanted / chance)
+        self._bounds = sorted((self._together, self._apart))
         self.score = self._together
         gap = self.score - bound if correlation >= 0.0 else self.score + bound
         if gap * gap < FAR * FAR * (1.0 - correlation * correlation):
@@ -180,36 +181,21 @@ class _Aim:
         if probability == below(score):  # The condition takes nothing away.
             self.score = self._together
             return 0.0
-        given = score_of(probability / self._chance)
+        chance = self._chance
+        given = score_of(probability / chance)
         miss = self._apart - given
         if -CERTAIN < given < CERTAIN:
-            score += _rise(score, self._bound, correlation, self._chance, given, miss)
-            self.score = sorted((self._together, score, self._apart))[1]
+            # A step of Chebyshev's: by slope and curvature of that in terms of s
+            spread = math.sqrt(max(1.0 - correlation * correlation, NARROWEST))
+            rest = (self._bound - correlation * score) / spread
+            met, density = below(rest) + LEAST, math.exp(-0.5 * rest * rest) / SQRT_TWO_PI
+            slope = met / chance * math.exp(0.5 * (given * given - score * score)) + LEAST
+            bend = given * slope - score - correlation * density / (spread * met)
+            step = miss / slope
+            score += step * (1.0 - 0.5 * bend * step)
+            low, high = self._bounds
+            self.score = low if score < low else high if score > high else score
         return miss
-
-
-def _rise(
-    score: float, bound: float, correlation: float, chance: float, given: float, rise: float
-) -> float:
-    """Return by how much s has to rise for the score of P given the condition to rise so much.
-
-    By a step of Chebyshev's, with slope and curvature of the one by the other.
-
-    Parameters
-    ----------
-    bound, chance : float
-        t and Φ(t).
-    given : float
-        The score of P given the condition at `score`.
-    """
-    spread = math.sqrt(max(1.0 - correlation * correlation, NARROWEST))
-    rest = (bound - correlation * score) / spread
-    met = below(rest) + LEAST
-    slope = met / chance * math.exp(0.5 * (given * given - score * score)) + LEAST
-    density = math.exp(-0.5 * rest * rest) / SQRT_TWO_PI
-    bend = given * slope - score - correlation * density / (spread * met)
-    step = rise / slope
-    return step * (1.0 - 0.5 * bend * step)
 
 
 def _where(low: Knot, high: Knot, score: float) -> float:
@@ -223,7 +209,7 @@ def _where(low: Knot, high: Knot, score: float) -> float:
     third = slope + other_slope - 2.0 * rise
     second = rise - slope - third
     short = score - before
-    share = short / rise
+    share = short / (rise + LEAST)
     for _ in range(CUBIC_STEPS):
         missing = short - share * (slope + share * (second + share * third))
         step = missing / (slope + share * (2.0 * second + 3.0 * share * third) + LEAST)
