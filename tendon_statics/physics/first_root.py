@@ -42,7 +42,7 @@ CUBIC_STEPS = 6
 CUBIC_SHARE = 1e-2
 """Of its range: the last of them, of which the next would be a hundredth or less"""
 
-FAR = 3.0
+PARTED = 3.0
 """Deviations of what parts the condition from g > 0, from which on one of the two decides"""
 
 CERTAIN = 6.0
@@ -170,7 +170,7 @@ class _Aim:
         self._bounds = sorted((self._together, self._apart))
         self.score = self._together
         gap = self.score - bound if correlation >= 0.0 else self.score + bound
-        if gap * gap < FAR * FAR * (1.0 - correlation * correlation):
+        if gap * gap < PARTED * PARTED * (1.0 - correlation * correlation):
             self.mend(self.score, correlation, both_below(self.score, bound, correlation))
 
     def mend(self, score: float, correlation: float, probability: float) -> float:
