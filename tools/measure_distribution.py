@@ -47,6 +47,8 @@ LEAST = 0.05
 
 MOST_SOLVES = 5.0
 
+REGIMES = tuple(Regime)
+
 
 class Job(NamedTuple):
     """One random unit."""
@@ -155,11 +157,11 @@ def measured(job: Job) -> Result:
         return slip_angle_distribution(*pair, tension_stddev=stddev, load=case.load)
 
     def probabilities() -> object:
-        return [*map(distribution().probability, Regime)]
+        return [*map(distribution().probability, REGIMES)]
 
     def everything() -> object:
         said = distribution()
-        return [*map(said.probability, Regime), said.interval(0.95)]
+        return [*map(said.probability, REGIMES), said.interval(0.95)]
 
     found = distribution()
     rounds = 100 if found.is_closed_form else 3

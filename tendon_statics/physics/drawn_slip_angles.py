@@ -12,8 +12,12 @@ from .regime import Regime
 from .solver import solve
 from .tensions import Tensions
 
-DRAWS = 8192
-"""Pairs that are solved where there is no closed form"""
+DRAWS = 1597
+"""Pairs that are solved where there is no closed form; one of Fibonacci's numbers, for which the
+lattice of two variables is the most even"""
+
+DRAWS_OF_DESIGNS = 6765
+"""Those with a design each, whose parameters are so many variables more"""
 
 
 class DrawnSlipAngles:
@@ -30,10 +34,12 @@ class DrawnSlipAngles:
         import numpy as np  # Here, for who stays in closed form should not wait for it.
 
         from .batch import INVALID, REGIME_CODES, solve_batch
-        from .draws import draw_designs, draw_normals
+        from .draws import draw_designs, even_normals
 
-        parameters = 0 if uncertainty is None else len(uncertainty.parameters)
-        normals = draw_normals(DRAWS, 2 + parameters)
+        if uncertainty is None:
+            normals = even_normals(DRAWS, 2)
+        else:
+            normals = even_normals(DRAWS_OF_DESIGNS, 2 + len(uncertainty.parameters))
         pairs = np.array(tensions)[:, None] + tension_stddev * normals[:2]
         # A tension below zero is one of a slack cable.
         pairs = np.maximum(pairs, 0.0)

@@ -19,6 +19,7 @@ regime.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import partial
 
 from .design import JointDesign
@@ -31,8 +32,11 @@ from .noisy_slip import NoisySlip
 from .regime import Regime
 from .slip import Slip
 from .state import Equilibrium
-from .tension_conditions import Condition, TensionConditions
+from .tension_conditions import ALWAYS, Condition, TensionConditions
 from .tensions import Tensions, check_tensions, taut_slip
+
+RARE = 1e-3
+"""Probability below which an equilibrium has no interval, since none is known that well"""
 
 
 def slip_angle_distribution(
@@ -48,8 +52,8 @@ def slip_angle_distribution(
 
     In closed form, but where noise may change two of these: which cable is the stronger, whether
     the weaker is taut, and whether the joint is seated; or, with the paper's law, the last of
-    them. There it is from `DRAWS` draws through `solve_batch`, which takes hundreds of solves'
-    time. `SlipAngleDistribution.is_closed_form` tells.
+    them. There it is from draws through `solve_batch`, which take some hundred solves' time.
+    `SlipAngleDistribution.is_closed_form` tells.
 
     Parameters
     ----------
@@ -127,7 +131,7 @@ class SlipAngleDistribution:
 
     @property
     def is_closed_form(self) -> bool:
-        """Whether it is worked out in closed form; otherwise from `DRAWS` draws.
+        """Whether it is worked out in closed form; otherwise from draws.
 
         It is where noise may change at most one of these: which cable is the stronger, whether the
         weaker is taut, and whether the joint is seated. With the paper's law, whose K is far from
@@ -138,14 +142,13 @@ class SlipAngleDistribution:
     @kept
     def _sides(self) -> list[NoisySlip]:
         """The slip function towards each side to which the unit may slip, the likelier first."""
-        condition = next(iter(self._conditions.near), None)
-        sides = [self._noisy(self._slip, condition)]
-        if self._conditions.stronger is not None:
-            other = self._conditions.stronger.opposite()
-            sides.append(self._noisy(self._slip.mirrored(), other))
+        near, stronger = self._conditions.near, self._conditions.stronger
+        sides = [self._noisy(self._slip, near[0] if near else ALWAYS)]
+        if stronger is not None:
+            sides.append(self._noisy(self._slip.mirrored(), stronger.opposite()))
         return sides
 
-    def _noisy(self, slip: Slip, condition: Condition | None) -> NoisySlip:
+    def _noisy(self, slip: Slip, condition: Condition) -> NoisySlip:
         of_design = None
         if self._uncertainty is not None:
             of_design = partial(self._variance_of_design, slip, self._uncertainty)
@@ -165,16 +168,18 @@ class SlipAngleDistribution:
         if not self.is_closed_form:
             return {regime: self._drawn.probability(regime) for regime in Regime}
         equilibrium = held = driven = 0.0
+        taut = self._conditions.taut
+        slack = 0.0 if taut is None else 1.0 - taut.chance
         for noisy in self._sides:
-            equilibrium += noisy.chance * noisy.root.probability
-            held += noisy.chance * noisy.held
-            driven += noisy.chance * noisy.driven
+            equilibrium += noisy.root.probability
+            held += noisy.held
+            driven += noisy.driven
         return {
             Regime.EQUILIBRIUM: equilibrium,
             Regime.HELD: held,
             Regime.SLIPPING: 0.0,
             Regime.DRIVEN_TO_STOP: driven,
-            Regime.SLACK: 0.0 if self._conditions.taut is None else 1.0 - self._sides[0].chance,
+            Regime.SLACK: slack,
         }
 
     def cdf(self, angle: float) -> float:
@@ -183,8 +188,7 @@ class SlipAngleDistribution:
         What is said of a negative angle is said of its mirror image: the slip angle towards
         cable l, up to that. The whole of one side is 1; 0 belongs to that of the stronger cable.
         Of the two other regimes ``driven_to_stop`` lies before 0 and ``held`` beyond the stop;
-        where the slip function falls all the way it is the other way round. Next to equal tensions
-        that of the unlikelier side is only right to about 0.01.
+        where the slip function falls all the way it is the other way round.
 
         Parameters
         ----------
@@ -196,7 +200,7 @@ class SlipAngleDistribution:
         for noisy in self._sides:
             ahead: float = noisy.side * angle
             if ahead >= 0.0:
-                return min(self._of_side(noisy) * noisy.cdf(ahead), 1.0)
+                return min(noisy.cdf(ahead) / self._of_side(noisy), 1.0)
         return 0.0
 
     def quantile(self, q: float) -> float | None:
@@ -214,17 +218,17 @@ class SlipAngleDistribution:
         if not self.is_closed_form:
             return self._drawn.quantile(q)
         noisy = self._sides[0]
-        ahead = noisy.quantile(q / self._of_side(noisy))
+        ahead = noisy.quantile(q * self._of_side(noisy))
         return None if ahead is None else noisy.side * ahead
 
     def _of_side(self, noisy: NoisySlip) -> float:
-        """Return the probability of what `noisy` is given, when the side is known."""
-        return noisy.chance if self._conditions.stronger is None else 1.0
+        """Return the probability of the side, of which that of `cdf` is the whole."""
+        return 1.0 if self._conditions.stronger is None else noisy.condition.chance
 
     def interval(self, level: float = 0.95) -> tuple[float, float] | None:
         """Return the interval in rad that holds the angle of an equilibrium with a probability.
 
-        Given that it is one; None where it never is, as far as its probability is known.
+        Given that it is one; None where that is rarer than once in 1000 times.
 
         Parameters
         ----------
@@ -240,25 +244,28 @@ class SlipAngleDistribution:
             raise ValueError(f'level is {level!r}, allowed is between 0 and 1')
         if not self.is_closed_form:
             return self._drawn.interval(level)
-        if not self.probabilities[Regime.EQUILIBRIUM] > self._sides[0].least_known:
+        roots = self.probabilities[Regime.EQUILIBRIUM]
+        if roots < RARE:
             return None
-        low = self._angle_of(0.5 * (1.0 - level))
-        high = self._angle_of(0.5 * (1.0 + level))
+        ends = 0.5 * (1.0 - level) * roots, 0.5 * (1.0 + level) * roots
+        low, high = self._angles_of(ends)
         return None if low is None or high is None else (low, high)
 
-    def _angle_of(self, share: float) -> float | None:
-        """Return the angle in rad up to which a share of all equilibria lies."""
-        left = share * self.probabilities[Regime.EQUILIBRIUM]
-        *before, last = sorted(self._sides, key=lambda noisy: noisy.side)
-        for noisy in before:
-            roots = noisy.chance * noisy.root.probability
-            if left < roots:
-                last = noisy
-                break
-            left -= roots
-        of_side = left / last.chance
-        ahead = last.root.angle_of(of_side if last.side > 0.0 else last.root.probability - of_side)
-        return None if ahead is None else last.side * ahead
+    def _angles_of(self, probabilities: Sequence[float]) -> list[float | None]:
+        """Return the angles in rad up to which equilibria have probabilities, all ascending."""
+        found: list[float | None] = []
+        start = 0.0
+        for noisy in self._sides if self._slip.side < 0.0 else reversed(self._sides):
+            root = noisy.root
+            end = start + root.probability
+            of_side = [one for one in probabilities if start < one <= end]
+            if of_side and noisy.side > 0.0:
+                found += root.angles_of([one - start for one in of_side])
+            elif of_side:
+                angles = root.angles_of([end - one for one in of_side])
+                found += [None if angle is None else -angle for angle in angles]
+            start = end
+        return found
 
     def _variance_of_design(
         self, slip: Slip, uncertainty: DesignUncertainty, ahead: float

@@ -302,9 +302,54 @@ def test_an_interval_ends_where_its_probability_does():
             continue
         one, other = (found.cdf(angle) for angle in interval)
         whole = found.probability('equilibrium')
-        assert abs(other - one) == pytest.approx(0.9 * whole, abs=1e-4), case
+        assert abs(other - one) == pytest.approx(0.9 * whole, abs=5e-4), case
         intervals += 1
     assert intervals > 100
+
+
+@pytest.mark.parametrize('kind', ['any', 'equal', 'slack'])
+def test_cdf_of_a_quantile_is_its_probability(kind):
+    """But across a kink of K, which that of the elastic seat may have: there σ_g jumps."""
+    draw = random.Random(kind)
+    quantiles = 0
+    for case, stddev in noisy_cases(600, seed=41):
+        if kind != 'any':
+            total = case.tension_l + case.tension_s
+            far = draw.uniform(0.0, 6.0) * stddev
+            case = with_weaker(case, far if kind == 'slack' else 0.5 * (total - far))
+        found = slip_angle_distribution(
+            case.design, case.tension_l, case.tension_s, tension_stddev=stddev, load=case.load
+        )
+        if not found.is_closed_form:
+            continue
+        stop = case.design.max_bend_angle
+        side = 1.0 if case.tension_s >= case.tension_l else -1.0
+        ends = found.cdf(side * 1e-9), found.cdf(side * stop)
+        for share in (0.01, 0.3, 0.8, 0.99):
+            q = min(ends) + share * abs(ends[1] - ends[0])
+            if 0.0 < q < 1.0 and (angle := found.quantile(q)) is not None:
+                has_kink = case.design.contact_law == 'elastic_seat'
+                assert found.cdf(angle) == pytest.approx(q, abs=0.02 if has_kink else 1e-3), case
+                quantiles += 1
+    assert quantiles > 300
+
+
+def test_the_unlikelier_side_has_its_own_angles_too():
+    """Against draws of what would make it the stronger, once in 300 times."""
+    slippery = replace(PRELIMINARY, friction_coefficient=0.01)
+    left, right, stddev = 1.0, 1.05, 0.013
+    found = slip_angle_distribution(slippery, left, right, tension_stddev=stddev)
+    noise = np.random.default_rng(6).normal(0.0, stddev, (2, 3_000_000))
+    pairs = np.array([[left], [right]]) + noise
+    pairs = pairs[:, pairs[0] > pairs[1]]
+    answers = solve_batch(slippery, *pairs)
+    driven = answers.regime == REGIME_CODES[Regime.DRIVEN_TO_STOP]
+    at_root = answers.regime == REGIME_CODES[Regime.EQUILIBRIUM]
+    assert pairs.shape[1] > 8000
+    for angle in (-0.01, -0.05):
+        share = np.mean(driven | (at_root & (answers.bend_angle >= angle)))
+        assert 0.02 < share < 0.98
+        assert found.cdf(angle) == pytest.approx(share, abs=0.015)
 
 
 def test_what_is_known_about_an_equilibrium_is_what_is_known_of_its_tensions():
@@ -337,5 +382,6 @@ def test_an_equilibrium_that_is_all_but_impossible_has_no_interval():
         found = slip_angle_distribution(
             case.design, case.tension_l, case.tension_s, tension_stddev=stddev, load=case.load
         )
-        if found.is_closed_form and found.probability('equilibrium') < 1e-13:
-            assert found.interval(0.999) is None
+        if found.is_closed_form:
+            is_rare = found.probability('equilibrium') < 1e-3
+            assert (found.interval(0.999) is None) is is_rare
