@@ -143,7 +143,7 @@ class FirstRoot:
                 break
             ahead += step
         knots.insert(index, knot)
-        return min(max(ahead + step, low[0]), high[0])
+        return min(max(knot[0] + step, low[0]), high[0])
 
 
 class _Aim:

@@ -13,7 +13,7 @@ CLOSE = 0.92
 
 APART = 40.0
 """Square of the distance of two bounds, in deviations of what parts the numbers, from which on
-they are never between them, but once in 1e9 times"""
+they are never between them, but for once in 1e9 times"""
 
 _NODES = (
     (0.0694318442029737, 0.1739274225687268),
@@ -72,7 +72,9 @@ def both_below(one: float, other: float, correlation: float) -> float:
     if square > APART * spread:
         return known
     if abs(correlation) < CLOSE:
-        return below(one) * below(other) + _from_independent(one, other, correlation)
+        found = below(one) * below(other) + _from_independent(one, other, correlation)
+        # What is known is the most that it can be, or the least.
+        return min(found, known) if correlation >= 0.0 else max(found, known)
     return known - sign * _from_equal(square, one * bound, sign * correlation)
 
 

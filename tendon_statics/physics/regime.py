@@ -21,8 +21,8 @@ class Regime(str, Enum):
     SLACK = 'slack'
     """A cable carries no tension, which is outside the model."""
 
-    # Each is equal to its value, so that what is kept by the one is found by the other. That of
-    # `Enum` is another, and takes ten times as long.
+    # A member equals its value, so the two must hash alike: what is kept by one is found by the
+    # other. `Enum` hashes the name instead, and takes ten times as long.
     __hash__ = str.__hash__
 
     def __str__(self) -> str:

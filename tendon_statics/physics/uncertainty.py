@@ -52,8 +52,9 @@ def slip_angle_distribution(
 
     In closed form, but where noise may change two of these: which cable is the stronger, whether
     the weaker is taut, and whether the joint is seated; or, with the paper's law, the last of
-    them. There it is from draws through `solve_batch`, which take some hundred solves' time.
-    `SlipAngleDistribution.is_closed_form` tells.
+    them. There it is from draws: of tensions through `solve_batch`, which takes some hundred
+    solves' time; of designs too, where these are uncertain, one by one, which takes about a
+    second. `SlipAngleDistribution.is_closed_form` tells.
 
     Parameters
     ----------
@@ -245,7 +246,7 @@ class SlipAngleDistribution:
         if not self.is_closed_form:
             return self._drawn.interval(level)
         roots = self.probabilities[Regime.EQUILIBRIUM]
-        if roots < RARE:
+        if not roots >= RARE:
             return None
         ends = 0.5 * (1.0 - level) * roots, 0.5 * (1.0 + level) * roots
         low, high = self._angles_of(ends)

@@ -62,6 +62,13 @@ def test_a_publisher_in_place_of_another_has_lost_nothing(lost, between):
     assert [lost.settle([ONE]) for _ in range(3)] == [0, 0, 0]
 
 
+def test_one_that_is_heard_before_a_report_that_knows_of_none_has_lost_nothing(lost):
+    noted(lost, 50, 51)
+    lost.settle([ONE])
+    noted(lost, 900, 901)
+    assert [lost.settle(known) for known in ([], [OTHER], [OTHER], [OTHER])] == [0, 0, 0, 0]
+
+
 def test_two_publishers_that_take_turns_lose_nothing(lost):
     for number in range(1, 100):
         noted(lost, number, 2000 + number)

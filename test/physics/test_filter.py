@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -133,6 +134,27 @@ def test_without_a_lag_every_sample_is_committed_at_once():
         state = found.update(3.0, 3.5, float(number))
         assert found.committed.time == state.time
         assert found.committed.bend_angle == state.bend_angle
+
+
+def test_without_a_lag_a_unit_is_said_to_slip_at_once_too():
+    found = StickSlipFilter(HANGING, tension_stddev=NOISE, lag=0.0)
+    said = [
+        (fed(found, [pair], start=0.002 * number, seed=number)[-1], found.committed)
+        for number, pair in enumerate(RAMP)
+    ]
+    slipping = [state.regime_probabilities[Regime.SLIPPING] for state, _ in said]
+    assert max(slipping) > 0.9
+    assert slipping == [committed.regime_probabilities[Regime.SLIPPING] for _, committed in said]
+
+
+def test_friction_of_one_is_followed_without_a_word_of_numpys():
+    design = dataclasses.replace(PRELIMINARY, friction_coefficient=1.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter('error')
+        fed(
+            StickSlipFilter(design, tension_stddev=NOISE),
+            [(1.0, 1.0 + 0.03 * n) for n in range(60)],
+        )
 
 
 def test_an_hour_below_slip_leaves_median_and_interval_where_they_were():

@@ -108,6 +108,11 @@ def test_what_neither_grows_nor_dies_away_goes_on_evenly():
     assert times[0] == 0.0 < times[1] < 0.1 < times[-1] < np.inf
 
 
+def test_what_only_swings_lives_on():
+    swings = LinearMotion(np.array([[0.0, 1.0], [-1.0, 0.0]]), np.array([1.0, 0.5]))
+    assert swings.lifetime > 1e6
+
+
 def test_a_jacobian_with_too_few_eigenvectors_is_nearly_followed():
     velocity, nothing = np.array([1.0, -1.0, 2.0]), np.zeros(3)
     way = LinearMotion(DEFECTIVE, velocity).way(0.5)

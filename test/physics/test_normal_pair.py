@@ -45,6 +45,12 @@ def test_next_to_a_bound_that_is_hardly_met_it_is_a_share_of_that(correlation):
         )
 
 
+def test_it_is_no_less_than_nothing_and_no_more_than_the_rarer_of_the_two():
+    bounds = np.linspace(-6.0, 6.0, 25)
+    for one, other, correlation in itertools.product(bounds, bounds, np.linspace(-1.0, 1.0, 41)):
+        assert 0.0 <= both_below(one, other, correlation) <= min(below(one), below(other))
+
+
 def test_a_score_is_never_infinite():
     assert score_of(0.5) == 0.0
     assert score_of(below(1.3)) == pytest.approx(1.3)

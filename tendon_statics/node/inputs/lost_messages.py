@@ -28,6 +28,7 @@ class LostMessages:
         self._suspected = 0  # since the last report
         self._suspected_before = 0  # between the two last reports
         self._publishers: frozenset[Hashable] = frozenset()  # at the last report
+        self._publishers_before: frozenset[Hashable] = frozenset()  # at the last but one
 
     def note(self, number: int | None) -> None:
         """Note that a message came, which its publisher gave this number, if it is known."""
@@ -56,7 +57,9 @@ class LostMessages:
             self._newest = None
         if len(known | self._publishers) > 1:
             self._suspected = self._suspected_before = 0
-        self._publishers = known
+        elif len(known | self._publishers_before) > 1:
+            self._suspected_before = 0  # at the report in between none was known
+        self._publishers, self._publishers_before = known, self._publishers
         lost = self._suspected_before
         self._suspected, self._suspected_before = 0, self._suspected
         return lost

@@ -148,7 +148,7 @@ class _Search:
                 if joint == self._index and side != self._side:
                     continue
                 moment, capacity = side * look.moments[joint], look.capacity(joint, side)[0]
-                by_moment = side * self._levers(joint)
+                by_moment = side * self._arm.cable_levers[joint]
                 by_capacity = by_moment - side * excess.by_tensions({joint: side}, look)[0]
                 if joint == self._index:
                     to_limit = by_moment - by_capacity
@@ -158,15 +158,6 @@ class _Search:
                 rows.append([*slope, -capacity])
                 limits.append(slope @ tensions - moment)
         return self._solve(rows, limits, to_limit, float(missing))
-
-    def _levers(self, joint: int) -> Floats:
-        """∂M/∂T in m."""
-        design, found = self._arm.designs[joint], []
-        for cable in self._arm.cables:
-            offset = design.cable_offset if cable.offset is None else cable.offset
-            lever = cable.sign * (design.ball_radius + offset)
-            found.append(lever if cable.last_unit > joint else 0.0)
-        return np.array(found)
 
     def _solve(
         self, rows: list[Any], limits: list[Any], to_limit: Floats, missing: float

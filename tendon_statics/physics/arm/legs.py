@@ -223,7 +223,8 @@ class _Changes:
         happens = happened[:, place - 1]
         if happens.any():
             was, now = signals[happens, place - 1], signals[happens, place]
-            shares = np.where(was < 0.0, was / (was - now), 1.0)
+            shares = np.ones_like(was)
+            np.divide(was, was - now, out=shares, where=was < 0.0)
             share = min(float(shares.min()) + JUST_BEYOND, 1.0)
         before = times[place - 1]
         return float(before + share * (times[place] - before)), place

@@ -114,7 +114,7 @@ class LinearMotion:
         self.growth: float = max(real)
         self.decay: float = max(-min(real), 0.0)
         self.to_rest: Floats = -(self.modes @ self._ways).real
-        self._slow: float = min(map(abs, real))
+        self._slow: float = min(map(abs, real)) or NO_RATE
 
     def _decompose(self, jacobian: Floats) -> tuple[Any, Any]:
         """Return the rates of the modes, and f in modes.

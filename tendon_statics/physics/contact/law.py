@@ -26,7 +26,7 @@ from .numbers import Numbers
 from .quadratic import Line, real_roots
 
 LEAST = 5e-324
-"""Added to a root that may be zero, so that what is divided by it is infinite: no other number
+"""Added to what may be zero, so that what is divided by it is infinite: no other number
 changes by it"""
 
 State = tuple[Any, ...]

@@ -128,9 +128,8 @@ class LoadedMergedLaw(LoadedLaw):
         # Its ends: with sin φ = ∓1, T − N = ||P| ± μ N| and R = ||P| ± μ T|.
         friction, more, excess = self._friction, 1.0 + self._friction, self._excess
         at_least = excess / more
-        at_most = numbers.choose(
-            share > friction, excess / (self._less + LEAST), (1.0 + share) / more
-        )
+        beyond, choose = share > friction, numbers.choose
+        at_most = choose(beyond, excess, 1.0 + share) / choose(beyond, self._less, more)
         scale = share * friction * friction
         lowest = scale * at_least / (share + friction)
         highest = scale * at_most / (abs(share - friction) + LEAST)

@@ -179,7 +179,7 @@ class FilterState:
 
     @cached_property
     def _step(self) -> Step:
-        """Whereto tensions drive the members, in one row, and their joints are pressed, in one."""
+        """Where tensions drive the members, in one row, and how they press them, in another."""
         slips = self.slips
         assert slips is not None
         with np.errstate(all='ignore'):  # Errors may leave a member with no tension to press.

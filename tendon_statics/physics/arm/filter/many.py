@@ -32,7 +32,7 @@ class ManyArms:
         self.crossing = crossings(arm)
         self.count = len(designs)
         self.friction = arm.cable_friction_coefficient
-        self.ends = np.array([cable.last_unit for cable in arm.cables])
+        self.ends = np.array(arm.cable_ends)
         self.stops = np.array(arm.stops)
         self.radii = np.array([design.ball_radius for design in designs])
         self.springs = np.array([design.stiffness for design in designs])
