@@ -182,6 +182,9 @@ class Program:
         program = cls(command)
         try:
             yield program
+        except BaseException:
+            print(f'{" ".join(map(str, command))} has said:\n{program.output()}')
+            raise
         finally:
             if program.process.poll() is None:
                 # Politely, so that it says goodbye to the others of its domain.
