@@ -74,10 +74,11 @@ def test_a_slow_answer_counts_though_it_was_asked_again():
 
 
 def test_what_a_program_has_said_is_shown_when_a_test_of_it_fails(capsys):
-    with (
-        pytest.raises(AssertionError, match='of the test'),
-        Program.running_command([sys.executable, '-c', SLEEPER]) as program,
-    ):
-        wait_for('the program', lambda: 'ready' in program.output())
-        raise AssertionError('of the test')
+    def fail():
+        with Program.running_command([sys.executable, '-c', SLEEPER]) as program:
+            wait_for('the program', lambda: 'ready' in program.output())
+            raise AssertionError('of the test')
+
+    with pytest.raises(AssertionError, match='of the test'):
+        fail()
     assert 'has said:\nready\n' in capsys.readouterr().out
