@@ -100,8 +100,7 @@ class Program:
     """A program of the package as a process of its own."""
 
     def __init__(self, command: Sequence[str | Path]) -> None:
-        # Appending, since the position in the file is shared with the program.
-        self._output = tempfile.TemporaryFile('a+')  # noqa: SIM115  closed in running_command
+        self._output = tempfile.TemporaryFile()  # noqa: SIM115  closed in running_command
         self.process = self._start(command)
 
     def _start(self, command: Sequence[str | Path]) -> Process:
@@ -111,8 +110,9 @@ class Program:
 
     def output(self) -> str:
         """What it has written so far, on both streams."""
-        self._output.seek(0)
-        return self._output.read()
+        # Without moving the place in the file where the program, which shares it, writes next.
+        file = self._output.fileno()
+        return os.pread(file, os.fstat(file).st_size, 0).decode(errors='replace')
 
     def sent(self) -> dict[str, int]:
         """What a driver that has ended says that it sent: readings, messages, by fault."""

@@ -29,6 +29,20 @@ def test_a_node_is_not_destroyed_while_its_thread_gathers_what_to_wait_for(monke
     assert not errors
 
 
+SPEAKER = (
+    'import sys\n'
+    'for number in range(20000):\n'
+    '    sys.stdout.write(f"{number}\\n")\n'
+    '    sys.stdout.flush()\n'
+)
+
+
+def test_what_a_program_says_is_whole_however_often_it_is_read_meanwhile():
+    with Program.running_command([sys.executable, '-c', SPEAKER]) as program:
+        wait_for('its end', lambda: bool(program.output()) and program.process.poll() is not None)
+        assert program.output().split() == [str(number) for number in range(20000)]
+
+
 SLEEPER = (
     'import signal, sys, time\n'
     'def end_late(*_):\n'
