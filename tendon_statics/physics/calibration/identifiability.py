@@ -46,7 +46,7 @@ def loss(residuals: Floats) -> Floats:
     It is −2 log of the density, but for a constant, of a noise that is Gaussian near 0 and has
     exponential tails, so that sums of it may be compared as likelihoods.
     """
-    losses: Floats = 2.0 * LOSS_SCALE**2 * (np.sqrt(1.0 + (residuals / LOSS_SCALE) ** 2) - 1.0)
+    losses: Floats = 2.0 * LOSS_SCALE**2 * (np.hypot(1.0, residuals / LOSS_SCALE) - 1.0)
     return losses
 
 
