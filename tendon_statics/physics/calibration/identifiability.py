@@ -52,7 +52,7 @@ def loss(residuals: Floats) -> Floats:
 
 def score(residuals: Floats) -> Floats:
     """ψ of residuals in standard deviations."""
-    scores: Floats = residuals / np.sqrt(1.0 + (residuals / LOSS_SCALE) ** 2)
+    scores: Floats = residuals / np.hypot(1.0, residuals / LOSS_SCALE)
     return scores
 
 
