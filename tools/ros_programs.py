@@ -182,7 +182,7 @@ class Program:
         program = cls(command)
         try:
             yield program
-        except BaseException:
+        except Exception:  # not Ctrl-C, at which nobody asks
             print(f'{" ".join(map(str, command))} has said:\n{program.output()}')
             raise
         finally:

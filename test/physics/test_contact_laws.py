@@ -9,6 +9,7 @@ import pytest
 from tendon_statics import JointDesign, Load, slip_margin, solve, solve_batch
 from tendon_statics.physics import CONTACT_LAWS
 from tendon_statics.physics.contact.numbers import FLOATS
+from tendon_statics.physics.tensions import Tensions, taut_slip
 
 CAPACITIES = [
     # law, μ, θ1 and θ2 in deg, |P| / T, tilt ψ in deg, and K / (r T) worked from the definition of
@@ -119,3 +120,19 @@ def test_the_slope_of_the_capacity_keeps_within_its_bounds_wherever_it_turns(law
         assert max(slopes) <= greatest + 1e-12, (friction, share, tilt)
         turned += max(slopes) > max(slopes[0], slopes[-1]) + 1e-3
     assert turned > 30
+
+
+@pytest.mark.parametrize('law', list(CONTACT_LAWS))
+def test_the_capacity_never_falls_as_a_cable_pulls_more(law):
+    draw = random.Random(law)
+    for _ in range(300):
+        friction, share = draw.choice((draw.uniform(0.01, 2.0), 1.0)), draw.uniform(0.0, 0.99)
+        case = case_of(law, friction, 20, 60, share, draw.uniform(-180, 180))
+        angle, more = draw.uniform(-0.5, 0.5), draw.uniform(0.0, 3.0)
+        tension_l, tension_s = case.tension_l, case.tension_s
+        before, after = (
+            taut_slip(case.design, Tensions(tension_l + pulled, tension_s), case.load)
+            for pulled in (0.0, more)
+        )
+        least = before.at(angle).capacity * before.total
+        assert after.at(angle).capacity * after.total >= least * (1.0 - 1e-12)

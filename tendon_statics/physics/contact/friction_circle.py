@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from ..roots import LEAST
 from .law import (
-    LEAST,
     ContactLaw,
     ContactShares,
     LoadedLaw,

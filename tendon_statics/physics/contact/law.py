@@ -25,10 +25,6 @@ from typing import Any
 from .numbers import Numbers
 from .quadratic import Line, real_roots
 
-LEAST = 5e-324
-"""Added to what may be zero, so that what is divided by it is infinite: no other number
-changes by it"""
-
 State = tuple[Any, ...]
 """A law at one angle: κ, ∂κ/∂ψ, and what else the law wants to know of it again"""
 
@@ -87,6 +83,8 @@ class LoadedLaw(ABC):
 
 class ContactLaw(ABC):
     """A contact law of one design.
+
+    K never falls as the tension of either cable grows, which presses the joint.
 
     Parameters
     ----------

@@ -71,10 +71,8 @@ class Windows:
 
     Parameters
     ----------
-    count : int
-        How many samples there are.
-    ages : ndarray
-        The places, as how many samples came after them, shape ``(n,)``.
+    count, ages
+        As of `LocalFits`.
     signals : int
         How many signals are estimated.
     """
